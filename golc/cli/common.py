@@ -1,0 +1,83 @@
+"""What every command shares: options, loading a theory, and writing to the two streams."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any, TextIO, TypeVar
+
+import click
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+@dataclass(frozen=True)
+class Console:
+    """Where a command writes: results to stdout, diagnostics and progress to stderr.
+
+    ``color`` is ``auto``, ``always`` or ``never``; ``verbosity`` is -1 with ``-q``, 0, or the number of ``-v``.
+    """
+
+    color: str = "auto"
+    verbosity: int = 0
+
+    def colored(self, stream: TextIO) -> bool:
+        """Whether to color what goes to a stream: asked for, or a terminal and no ``NO_COLOR``."""
+        if self.color == "auto":
+            return stream.isatty() and not os.environ.get("NO_COLOR")
+        return self.color == "always"
+
+    def out(self, text: str) -> None:
+        """A result."""
+        print(text, file=sys.stdout, flush=True)
+
+    def err(self, text: str) -> None:
+        """A diagnostic; never silenced."""
+        print(text, file=sys.stderr, flush=True)
+
+    def note(self, text: str) -> None:
+        """What is good to know; silent under ``-q``."""
+        if self.verbosity >= 0:
+            self.err(text)
+
+
+def _definitions(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> Mapping[str, str]:
+    constants: dict[str, str] = {}
+    for value in values:
+        name, equals, text = value.partition("=")
+        if not equals or not name.strip() or not text.strip():
+            raise click.BadParameter(f"{value!r} is not of the form NAME=VALUE")
+        constants[name.strip()] = text.strip()
+    return constants
+
+
+def console_options(command: F) -> F:
+    """``--color``, ``-q`` and ``-v``; the command gets a ``console``."""
+
+    def build(color: str, quiet: bool, verbose: int) -> Console:
+        return Console(color, -1 if quiet else verbose)
+
+    def wrapper(*args: Any, color: str, quiet: bool, verbose: int, **kwargs: Any) -> Any:
+        return command(*args, console=build(color, quiet, verbose), **kwargs)
+
+    wrapper.__name__ = command.__name__
+    wrapper.__doc__ = command.__doc__
+    wrapper.__click_params__ = getattr(command, "__click_params__", [])  # type: ignore[attr-defined]
+    wrapped = click.option(
+        "--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="When to use color."
+    )(wrapper)
+    wrapped = click.option("-v", "--verbose", count=True, help="Say more.")(wrapped)
+    return click.option("-q", "--quiet", is_flag=True, help="Say only what went wrong.")(wrapped)  # type: ignore[return-value]
+
+
+constants_option = click.option(
+    "-D",
+    "constants",
+    multiple=True,
+    metavar="NAME=VALUE",
+    callback=_definitions,
+    help="Replace the value of a const; may be repeated.",
+)
+"""``-D NAME=VALUE``: the command gets ``constants``, a mapping from names to texts."""

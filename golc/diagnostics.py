@@ -1,0 +1,199 @@
+"""What golc has to say about an input: sources, spans, diagnostics, and the errors that carry them."""
+
+from __future__ import annotations
+
+import bisect
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import cached_property
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """A text with the name under which messages speak of it (a path as the user gave it, or ``<goal>``)."""
+
+    name: str
+    text: str
+
+    @cached_property
+    def line_starts(self) -> list[int]:
+        """Offset of the first character of each line; only ``\\n`` ends a line."""
+        starts = [0]
+        for offset, character in enumerate(self.text):
+            if character == "\n":
+                starts.append(offset + 1)
+        return starts
+
+    def position(self, offset: int) -> tuple[int, int]:
+        """Line and column of an offset, both from 1; columns count characters."""
+        line = bisect.bisect_right(self.line_starts, offset)
+        return line, offset - self.line_starts[line - 1] + 1
+
+    def line(self, number: int) -> str:
+        """The text of a line (from 1) without its line end."""
+        start = self.line_starts[number - 1]
+        end = self.line_starts[number] - 1 if number < len(self.line_starts) else len(self.text)
+        return self.text[start:end].rstrip("\r")
+
+
+@dataclass(frozen=True, slots=True)
+class Span:
+    """The half-open range ``start..end`` of offsets in a source."""
+
+    source: Source
+    start: int
+    end: int
+
+    @property
+    def line(self) -> int:
+        """Line of the first character, from 1."""
+        return self.source.position(self.start)[0]
+
+    @property
+    def column(self) -> int:
+        """Column of the first character, from 1, in characters."""
+        return self.source.position(self.start)[1]
+
+    @property
+    def text(self) -> str:
+        """The characters themselves."""
+        return self.source.text[self.start : self.end]
+
+    def to(self, other: Span) -> Span:
+        """From the start of this span to the end of the other one."""
+        return Span(self.source, self.start, other.end)
+
+    def __str__(self) -> str:
+        return f"{self.source.name}:{self.line}:{self.column}"
+
+
+NOWHERE = Span(Source("<built in>", ""), 0, 0)
+
+
+class Severity(Enum):
+    """How bad a finding is; only errors make ``golc check`` fail."""
+
+    ERROR = "error"
+    WARNING = "warning"
+    NOTE = "note"
+
+
+class Code(Enum):
+    """Every finding that golc can make: its stable code and its title."""
+
+    # 001..009: text and syntax
+    UNREADABLE = ("GL001", "the file cannot be read as text")
+    SYNTAX = ("GL002", "the text does not follow the grammar")
+
+    def __init__(self, code: str, title: str) -> None:
+        self.code = code
+        self.title = title
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A second place that explains a finding."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnostic:
+    """One finding: what, where, how bad, why, and what to do about it.
+
+    ``message`` is one sentence without a full stop that names the thing and the cause; ``marker`` stands beside the
+    underlined place; ``help`` is a concrete proposal.
+    """
+
+    code: Code
+    message: str
+    span: Span
+    severity: Severity = Severity.ERROR
+    marker: str = ""
+    labels: tuple[Label, ...] = ()
+    notes: tuple[str, ...] = ()
+    help: str | None = None
+
+
+@dataclass
+class Findings:
+    """Collects the diagnostics of a pass, which goes on after each."""
+
+    diagnostics: list[Diagnostic] = field(default_factory=list)
+
+    def add(self, diagnostic: Diagnostic) -> None:
+        self.diagnostics.append(diagnostic)
+
+    def error(
+        self,
+        code: Code,
+        message: str,
+        span: Span,
+        marker: str = "",
+        help: str | None = None,
+        labels: tuple[Label, ...] = (),
+        notes: tuple[str, ...] = (),
+    ) -> None:
+        self.add(Diagnostic(code, message, span, Severity.ERROR, marker, labels, notes, help))
+
+    def warning(
+        self,
+        code: Code,
+        message: str,
+        span: Span,
+        marker: str = "",
+        help: str | None = None,
+        labels: tuple[Label, ...] = (),
+        notes: tuple[str, ...] = (),
+    ) -> None:
+        self.add(Diagnostic(code, message, span, Severity.WARNING, marker, labels, notes, help))
+
+    @property
+    def has_errors(self) -> bool:
+        return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
+
+
+class GolcError(Exception):
+    """The base of every error that golc raises on purpose; ``exit_code`` is what the command line ends with."""
+
+    exit_code = 70
+
+
+class UserError(GolcError):
+    """The input is wrong: carries what is to be said about it."""
+
+    exit_code = 1
+
+    def __init__(self, *diagnostics: Diagnostic) -> None:
+        super().__init__("; ".join(f"{d.span}: {d.message}" for d in diagnostics))
+        self.diagnostics = diagnostics
+
+
+class ProgramError(GolcError):
+    """The theory or the program fails while it runs: an argument outside its type, running in circles, blocked."""
+
+    exit_code = 5
+
+    def __init__(self, diagnostic: Diagnostic) -> None:
+        super().__init__(f"{diagnostic.span}: {diagnostic.message}")
+        self.diagnostic = diagnostic
+
+
+class LimitError(GolcError):
+    """golc gave up at a limit (steps, time, nodes, memory)."""
+
+    exit_code = 3
+
+
+class DeviceError(GolcError):
+    """The world is wrong: a device, a link or a tool does not do what it should.
+
+    ``help`` says what a person can do about it.
+    """
+
+    exit_code = 4
+
+    def __init__(self, message: str, help: str | None = None) -> None:
+        super().__init__(message)
+        self.help = help

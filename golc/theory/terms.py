@@ -1,0 +1,179 @@
+"""Typed terms: what the elaborator makes of expressions.
+
+A formula is a term of type ``bool``. Names are resolved: constants are literals, variables know their *level*, the number
+of variables that are in scope around their binder (the parameters of an action or procedure are levels 0, 1, …). Terms are
+compared by structure; spans and the names of variables take no part.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from enum import Enum
+from typing import Literal as OneOf
+from typing import TypeAlias
+
+from golc.diagnostics import NOWHERE, Span
+from golc.theory.types import Type, Value
+
+
+@dataclass(frozen=True)
+class Base:
+    """The base of all terms."""
+
+    type: Type = field(kw_only=True)
+    span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+@dataclass(frozen=True)
+class Literal(Base):
+    value: Value
+
+
+@dataclass(frozen=True)
+class Variable(Base):
+    """A parameter or a bound variable; ``level`` counts the variables in scope outside its own binder."""
+
+    level: int
+    name: str = field(compare=False)
+
+
+@dataclass(frozen=True)
+class FluentTerm(Base):
+    """The value of a fluent in the current situation."""
+
+    fluent: str
+    args: tuple[Term, ...]
+
+
+@dataclass(frozen=True)
+class StaticTerm(Base):
+    static: str
+    args: tuple[Term, ...]
+
+
+@dataclass(frozen=True)
+class DefinedTerm(Base):
+    """A definition applied to its arguments."""
+
+    definition: str
+    args: tuple[Term, ...]
+
+
+@dataclass(frozen=True)
+class PossTerm(Base):
+    """``poss(a(e, …))``: the action's precondition."""
+
+    action: str
+    args: tuple[Term, ...]
+
+
+class Operator(Enum):
+    """The operations, each with the token that writes it. All operands are evaluated but where it says otherwise."""
+
+    ADD = "+"
+    SUBTRACT = "-"
+    MULTIPLY = "*"
+    DIVIDE = "//"
+    """Floors; a division by zero is an error."""
+    MODULO = "%"
+    """Takes the divisor's sign; a division by zero is an error."""
+    NEGATE = "neg"
+    ABSOLUTE = "abs"
+    MINIMUM = "min"
+    """Any number of operands."""
+    MAXIMUM = "max"
+    EQUAL = "="
+    DIFFERENT = "!="
+    LESS = "<"
+    """Integers by value; symbols by their place in ``Operation.order``."""
+    LESS_EQUAL = "<="
+    GREATER = ">"
+    GREATER_EQUAL = ">="
+    NOT = "not"
+    AND = "and"
+    """From left to right, stops at the first false one. Any number of operands (at least two)."""
+    OR = "or"
+    """From left to right, stops at the first true one. Any number of operands (at least two)."""
+    IMPLIES = "implies"
+    """The right side is evaluated only if the left one holds."""
+    IFF = "iff"
+    CONDITIONAL = "if"
+    """Operands: then, condition, otherwise. The condition is evaluated first, then one of the two."""
+
+
+@dataclass(frozen=True)
+class Operation(Base):
+    """An operator applied to its operands.
+
+    ``order`` is given for comparisons of symbols by ``< <= > >=``: the values in the order that decides.
+    """
+
+    op: Operator
+    args: tuple[Term, ...]
+    order: tuple[Value, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Membership(Base):
+    """``x in t`` for a finite type (``not in`` is its negation)."""
+
+    element: Term
+    within: Type
+
+
+@dataclass(frozen=True)
+class Binder:
+    """A variable that runs over the values of a finite type, in order."""
+
+    variable: Variable
+
+    @property
+    def values(self) -> tuple[Value, ...]:
+        return tuple(self.variable.type.values)
+
+
+@dataclass(frozen=True)
+class Quantified(Base):
+    """A quantifier or an aggregate. ``where`` restricts the bindings; an empty ``min`` or ``max`` is an error.
+
+    ``exists`` and ``forall`` stop at the first binding that decides.
+    """
+
+    kind: OneOf["exists", "forall", "count", "sum", "min", "max"]
+    binders: tuple[Binder, ...]
+    where: Term | None
+    body: Term
+
+
+Term: TypeAlias = (
+    Literal | Variable | FluentTerm | StaticTerm | DefinedTerm | PossTerm | Operation | Membership | Quantified
+)
+
+
+def subterms(term: Term) -> Iterator[Term]:
+    """The term and every term inside it, outermost first; no recursion, for the depth is the input's."""
+    stack = [term]
+    while stack:
+        term = stack.pop()
+        yield term
+        stack.extend(reversed(children(term)))
+
+
+def children(term: Term) -> tuple[Term, ...]:
+    """The terms directly inside a term, in the order in which they are written."""
+    match term:
+        case (
+            FluentTerm(args=args)
+            | StaticTerm(args=args)
+            | DefinedTerm(args=args)
+            | PossTerm(args=args)
+            | Operation(args=args)
+        ):
+            return args
+        case Membership(element=element):
+            return (element,)
+        case Quantified(where=where, body=body):
+            return (body,) if where is None else (where, body)
+        case _:
+            return ()

@@ -1,0 +1,181 @@
+"""The types of golc's terms, and the Python values that stand for theirs.
+
+An integer is an ``int``, a symbol its name as a ``str``, a truth value a ``bool``, ``none`` is ``None``. (A ``real`` is a
+``Fraction``, a set a ``frozenset``, a list a ``tuple``.) Types are compared by structure; a name is only for messages.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TypeAlias
+
+Value: TypeAlias = Hashable
+
+
+@dataclass(frozen=True)
+class Type:
+    """The base of all types."""
+
+    @property
+    def finite(self) -> bool:
+        """Whether ``values`` can enumerate it."""
+        return False
+
+    @property
+    def values(self) -> Sequence[Value]:
+        """The values in the declared order; only of a finite type."""
+        raise TypeError(f"{self} has no finite list of values")
+
+    def __contains__(self, value: object) -> bool:
+        """Whether a value belongs to the type."""
+        raise NotImplementedError
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        """What sorts of value it has: ``int``, ``bool``, ``real``, ``string``, ``none``, ``set``, ``list``, or ``symbol:E``
+        for the enumeration E. Terms whose kinds are disjoint can never be equal: comparing them is a type error."""
+        raise NotImplementedError
+
+
+@dataclass(frozen=True)
+class Primitive(Type):
+    """``bool``, ``int``, ``real``, ``string``."""
+
+    name: str
+
+    @property
+    def finite(self) -> bool:
+        return self.name == "bool"
+
+    @property
+    def values(self) -> Sequence[Value]:
+        return (False, True) if self.name == "bool" else super().values
+
+    def __contains__(self, value: object) -> bool:
+        match self.name:
+            case "bool":
+                return isinstance(value, bool)
+            case "string":
+                return isinstance(value, str)
+            case _:
+                return isinstance(value, int) and not isinstance(value, bool)
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        return frozenset({self.name})
+
+    def __str__(self) -> str:
+        return self.name
+
+
+BOOL = Primitive("bool")
+INT = Primitive("int")
+REAL = Primitive("real")
+STRING = Primitive("string")
+
+
+@dataclass(frozen=True)
+class Interval(Type):
+    """``low .. high``, both inclusive; ``low <= high``."""
+
+    low: int
+    high: int
+    name: str | None = field(default=None, compare=False)
+
+    @property
+    def finite(self) -> bool:
+        return True
+
+    @property
+    def values(self) -> Sequence[Value]:
+        return range(self.low, self.high + 1)
+
+    def __contains__(self, value: object) -> bool:
+        return isinstance(value, int) and not isinstance(value, bool) and self.low <= value <= self.high
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        return frozenset({"int"})
+
+    def __str__(self) -> str:
+        return self.name or f"{self.low}..{self.high}"
+
+
+@dataclass(frozen=True)
+class Enumeration(Type):
+    """Integers and symbols in declared order: an enumeration, or a union written out.
+
+    ``members`` pairs each value with the enumeration that declared it (``""`` for an integer).
+    """
+
+    members: tuple[tuple[Value, str], ...]
+    name: str | None = field(default=None, compare=False)
+
+    @property
+    def finite(self) -> bool:
+        return True
+
+    @cached_property
+    def values(self) -> Sequence[Value]:
+        return tuple(value for value, _ in self.members)
+
+    @cached_property
+    def _set(self) -> frozenset[Value]:
+        return frozenset(self.values)
+
+    def __contains__(self, value: object) -> bool:
+        return not isinstance(value, bool) and value in self._set
+
+    @cached_property
+    def kinds(self) -> frozenset[str]:
+        return frozenset(f"symbol:{owner}" if owner else "int" for _, owner in self.members)
+
+    def __str__(self) -> str:
+        return self.name or "{" + ", ".join(map(str, self.values)) + "}"
+
+
+@dataclass(frozen=True)
+class Optional(Type):
+    """``base?``: the base and ``none``, which comes first in the order."""
+
+    base: Type
+
+    @property
+    def finite(self) -> bool:
+        return self.base.finite
+
+    @cached_property
+    def values(self) -> Sequence[Value]:
+        return (None, *self.base.values)
+
+    def __contains__(self, value: object) -> bool:
+        return value is None or value in self.base
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        return self.base.kinds | {"none"}
+
+    def __str__(self) -> str:
+        return f"{self.base}?"
+
+
+NONE = Optional(Enumeration(()))
+"""The type of ``none`` alone."""
+
+
+def show(value: Value) -> str:
+    """A value as golc writes it: ``true``, ``none``, ``3``, ``stopped``."""
+    match value:
+        case None:
+            return "none"
+        case bool():
+            return "true" if value else "false"
+        case _:
+            return str(value)
+
+
+def show_call(name: str, args: Sequence[Value]) -> str:
+    """``a`` or ``a(1, b)``."""
+    return f"{name}({', '.join(map(show, args))})" if args else name
