@@ -85,6 +85,19 @@ class Code(Enum):
     UNREADABLE = ("GL001", "the file cannot be read as text")
     SYNTAX = ("GL002", "the text does not follow the grammar")
 
+    # 100..129: run time
+    ARGUMENT_OUTSIDE_TYPE = ("GL100", "an argument is outside its parameter's type")
+    VALUE_OUTSIDE_TYPE = ("GL101", "a value is outside its type")
+    NOTHING = ("GL102", "`none` where a value is needed")
+    DIVISION_BY_ZERO = ("GL103", "division by zero")
+    EMPTY_EXTREMUM = ("GL104", "`min` or `max` over nothing")
+    CONFLICTING_EFFECTS = ("GL105", "two effects give one fluent two values")
+    ENDLESS_RECURSION = ("GL106", "a recursion does not end")
+    RUNS_IN_CIRCLES = ("GL107", "the program runs in circles")
+    BLOCKED = ("GL108", "the program is blocked and nothing can unblock it")
+    EVENTS = ("GL110", "a line of an events file cannot be understood")
+    EVENT = ("GL111", "an action is written that cannot be reported or performed so")
+
     def __init__(self, code: str, title: str) -> None:
         self.code = code
         self.title = title

@@ -1,0 +1,210 @@
+"""Ground actions as people write them: ``request_delivery(2, 5)`` on a line of text, checked against the theory."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+
+from golc.syntax.parse import parse_expression
+
+from golc.diagnostics import NOWHERE, Code, Diagnostic, Findings, Source, Span
+from golc.syntax import tree
+from golc.theory.theory import Action, BasicActionTheory, Parameter
+from golc.theory.types import Enumeration, Interval, Optional, Type, Value, show_call
+
+
+@dataclass(frozen=True)
+class Call:
+    """A ground action: its name and the values of its arguments."""
+
+    action: str
+    args: tuple[Value, ...] = ()
+    span: Span = field(default=NOWHERE, compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return show_call(self.action, self.args)
+
+
+def read_exogenous(theory: BasicActionTheory, where: Span, findings: Findings) -> Call | None:
+    """The exogenous action that the text at ``where`` names; None if the text is wrong, which is then a finding."""
+    target = _target(where, findings, "an exogenous action, as in `" + example(theory, exogenous=True) + "`")
+    if target is None or (action := _action(theory, target, True, findings)) is None:
+        return None
+    return _call(theory, action, target, findings)
+
+
+def read_primitive(theory: BasicActionTheory, where: Span, findings: Findings) -> tuple[str, Call | None] | None:
+    """The primitive action that the text at ``where`` names: (name, call), the call None if it has no argument list.
+
+    A name alone stands for all the action's instances, even if it has parameters. None if the text is wrong.
+    """
+    target = _target(where, findings, "an action, as in `" + example(theory, exogenous=False) + "`")
+    if target is None or (action := _action(theory, target, False, findings)) is None:
+        return None
+    if not target.args:
+        return action.name, None
+    call = _call(theory, action, target, findings)
+    return None if call is None else (action.name, call)
+
+
+def read_value(theory: BasicActionTheory, type_: Type, where: Span, findings: Findings) -> tuple[Value] | None:
+    """The value of a type that the text at ``where`` names, in a tuple of its own; None if it is wrong."""
+    expression = parse_at(where, findings)
+    return None if expression is None else _value(theory, type_, expression, "the value", findings)
+
+
+def example(theory: BasicActionTheory, exogenous: bool) -> str:
+    """A ground action of the theory to show in a message."""
+    candidates = [a for a in theory.actions.values() if a.exogenous == exogenous]
+    if not candidates:
+        return "press(1)"
+    action = max(candidates, key=lambda a: bool(a.parameters))
+    return show_call(action.name, [_sample(p.type) for p in action.parameters])
+
+
+def describe(type_: Type) -> str:
+    """The values of a type in a few words: ``station (1..6)``."""
+    match type_:
+        case Interval(name=str(name)):
+            return f"{name} ({type_.low}..{type_.high})"
+        case Enumeration(name=str(name)):
+            return f"{name} ({', '.join(map(str, type_.values))})"
+        case Optional(base=base):
+            return f"{describe(base)} or none"
+        case _:
+            return str(type_)
+
+
+def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
+    """A proposal for a misspelt name."""
+    match difflib.get_close_matches(name, list(candidates), n=1, cutoff=0.6):
+        case [best]:
+            return f"did you mean `{best}`?"
+        case _:
+            return None
+
+
+def parse_at(where: Span, findings: Findings) -> tree.Expr | None:
+    """Parse the text of a span as an expression; spans and findings speak of the place where the text stands."""
+    local = Source(where.source.name, where.text)
+    own = Findings()
+    expression = parse_expression(local, own)
+    for diagnostic in own.diagnostics:
+        findings.add(_moved(diagnostic, where))
+    return None if own.has_errors else expression
+
+
+def _moved(diagnostic: Diagnostic, where: Span) -> Diagnostic:
+    labels = tuple(replace(label, span=_shift(label.span, where)) for label in diagnostic.labels)
+    return replace(diagnostic, span=_shift(diagnostic.span, where), labels=labels)
+
+
+def _shift(span: Span, where: Span) -> Span:
+    """A span of the text of ``where`` as a span of the source of ``where``."""
+    start, end = (min(where.start + offset, where.end) for offset in (span.start, span.end))
+    return Span(where.source, start, end)
+
+
+@dataclass(frozen=True)
+class _Target:
+    name: str
+    args: tuple[tree.Expr, ...]
+    span: Span
+    where: Span
+
+
+def _target(where: Span, findings: Findings, wanted: str) -> _Target | None:
+    expression = parse_at(where, findings)
+    match expression:
+        case None:
+            return None
+        case tree.Apply(name=name, args=args):
+            return _Target(name.text, args, _shift(name.span, where), where)
+        case _:
+            findings.error(Code.EVENT, f"`{where.text.strip()}` is not an action", where, help=f"write {wanted}")
+            return None
+
+
+def _action(theory: BasicActionTheory, target: _Target, exogenous: bool, findings: Findings) -> Action | None:
+    action = theory.actions.get(target.name)
+    kind = "exogenous action" if exogenous else "action"
+    if action is None:
+        names = [a.name for a in theory.actions.values() if a.exogenous == exogenous]
+        if (help_ := did_you_mean(target.name, names)) is None:
+            help_ = f"the domain declares {', '.join(names)}" if names else f"the domain declares no {kind}"
+        findings.error(Code.EVENT, f"unknown {kind} `{target.name}`", target.span, "not declared", help_)
+        return None
+    if action.exogenous != exogenous:
+        message = (
+            "is exogenous: the robot never performs it" if action.exogenous else "is the robot's own, not exogenous"
+        )
+        findings.error(Code.EVENT, f"`{action.name}` {message}", target.span)
+        return None
+    return action
+
+
+def _call(theory: BasicActionTheory, action: Action, target: _Target, findings: Findings) -> Call | None:
+    if len(target.args) != len(action.parameters):
+        findings.error(
+            Code.EVENT,
+            f"`{action.name}` takes {_count(action.parameters)}, not {len(target.args)}",
+            target.where,
+            help=f"write for example `{show_call(action.name, [_sample(p.type) for p in action.parameters])}`",
+        )
+        return None
+    values: list[Value] = []
+    for parameter, arg in zip(action.parameters, target.args, strict=True):
+        moved = replace(arg, span=_shift(arg.span, target.where))
+        value = _value(theory, parameter.type, moved, f"`{parameter.name}` of `{action.name}`", findings)
+        if value is None:
+            return None
+        values.extend(value)
+    return Call(action.name, tuple(values), target.where)
+
+
+def _count(parameters: Sequence[Parameter]) -> str:
+    if not parameters:
+        return "no arguments"
+    named = ", ".join(f"{p.name}: {p.type}" for p in parameters)
+    return f"{len(parameters)} argument{'s' if len(parameters) > 1 else ''} ({named})"
+
+
+def _sample(type_: Type) -> Value:
+    """Some value of a type, for an example: the last one, which is never ``none``."""
+    return type_.values[-1] if type_.finite else 1
+
+
+def _value(
+    theory: BasicActionTheory, type_: Type, arg: tree.Expr, what: str, findings: Findings
+) -> tuple[Value] | None:
+    """The value that an argument denotes, if the type has it."""
+    match arg:
+        case tree.Number(value=number):
+            value: Value = number
+        case tree.Unary(op="-", operand=tree.Number(value=number)):
+            value = -number
+        case tree.Truth(value=truth):
+            value = truth
+        case tree.Nothing():
+            value = None
+        case tree.Apply(name=tree.Ident(text=name), args=()) if name in theory.symbols:
+            value = name
+        case tree.Apply(name=tree.Ident(text=name), args=()) if name in theory.constants:
+            value = theory.constants[name].value
+        case tree.Apply(name=tree.Ident(text=name), args=()):
+            help_ = did_you_mean(name, _names(type_)) or f"{what} is a {describe(type_)}"
+            findings.error(Code.EVENT, f"unknown value `{name}`", arg.span, "not a value", help_)
+            return None
+        case _:
+            findings.error(Code.EVENT, "a value is needed, not an expression", arg.span, help=f"a {describe(type_)}")
+            return None
+    if value not in type_:
+        help_ = f"{what} is a {describe(type_)}"
+        findings.error(Code.EVENT, f"`{arg.span.text.strip()}` is not a {describe(type_)}", arg.span, "", help_)
+        return None
+    return (value,)
+
+
+def _names(type_: Type) -> list[str]:
+    return [value for value in type_.values if isinstance(value, str)] if type_.finite else []
