@@ -1,0 +1,430 @@
+"""Typed terms to Python source over tuple states.
+
+A term becomes one Python expression in which ``s`` is the state. What the types prove costs nothing at run time; where
+they do not, the expression calls a *check* that knows its place in the golc file and raises the error that the language
+defines. Small quantifiers are written out, so that most ground fluents become plain ``s[7]``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from itertools import product
+from math import prod
+from typing import Any, NamedTuple
+
+from golc.situation import errors
+from golc.situation.layout import Layout, Place
+from golc.theory.terms import (
+    Binder,
+    DefinedTerm,
+    FluentTerm,
+    Literal,
+    Membership,
+    Operation,
+    Operator,
+    PossTerm,
+    Quantified,
+    StaticTerm,
+    Term,
+    Variable,
+    subterms,
+)
+from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
+from golc.theory.types import Interval, Type, Value, show_call
+
+DEEPEST = 24
+"""Expressions nested deeper go into functions of their own: CPython refuses more than about 200 nested brackets."""
+
+LARGEST_UNROLLED = 200
+"""A quantifier is written out if its bindings times the subterms of its body are no more than this."""
+
+INFIX = {
+    Operator.ADD: "+",
+    Operator.SUBTRACT: "-",
+    Operator.MULTIPLY: "*",
+    Operator.EQUAL: "==",
+    Operator.DIFFERENT: "!=",
+    Operator.LESS: "<",
+    Operator.LESS_EQUAL: "<=",
+    Operator.GREATER: ">",
+    Operator.GREATER_EQUAL: ">=",
+    Operator.IFF: "==",
+    Operator.AND: "and",
+    Operator.OR: "or",
+}
+CALLS = {Operator.ABSOLUTE: "abs", Operator.MINIMUM: "min", Operator.MAXIMUM: "max"}
+ORDERED = {Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL}
+EXACT = {Operator.EQUAL, Operator.DIFFERENT, Operator.IFF, Operator.AND, Operator.OR, Operator.NOT, Operator.IMPLIES}
+"""Operators whose operands may be ``none`` or are truth values."""
+
+
+class Cell(NamedTuple):
+    """What stands for a variable: a Python name or expression, or a value that is known while compiling."""
+
+    text: str
+    known: bool = False
+    value: Value = None
+
+
+Cells = tuple[Cell, ...]
+"""One for each variable in scope, by level."""
+
+
+class Compiler:
+    """Makes Python functions of the terms of one theory; statics, definitions and preconditions are made once."""
+
+    def __init__(self, theory: BasicActionTheory, layout: Layout) -> None:
+        self.theory = theory
+        self.layout = layout
+        self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
+        self._made: dict[tuple[str, str], str] = {}
+        self._positions: dict[int, str] = {}
+
+    def function(self, parameters: str, lines: list[str]) -> Callable[..., Any]:
+        """A Python function of generated lines."""
+        function: Callable[..., Any] = self.namespace[self._define(parameters, lines)]
+        return function
+
+    def term(self, term: Term, depth: int) -> Callable[..., Any]:
+        """A function of a state and an environment of ``depth`` variables that evaluates a term."""
+        return self.function("s, e", [f"return {self.expression(term, environment(depth))}"])
+
+    def environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
+        """A function of a state and an environment that yields the longer ones which binders and ``where`` make."""
+        cells, clauses = self.loops(binders, where, environment(depth))
+        added = "".join(f"{cell.text}, " for cell in cells[depth:])
+        return self.function("s, e", [f"return (e + ({added}) {clauses})"])
+
+    def loops(
+        self, binders: tuple[Binder, ...], where: Term | None, cells: Cells, scope: str = ""
+    ) -> tuple[Cells, str]:
+        """``for … if …`` of a comprehension, and the cells inside it."""
+        clauses = []
+        for binder in binders:
+            name = f"v{len(cells)}"
+            clauses.append(f"for {name} in {self.bind('values', binder.variable.type.values)}")
+            cells = (*cells, Cell(name))
+        if where is not None:
+            clauses.append(f"if {self.expression(where, cells)}")
+        return cells, " ".join(clauses)
+
+    def bind(self, prefix: str, value: object) -> str:
+        """A name for a Python object in the generated code."""
+        name = f"{prefix}_{len(self.namespace)}"
+        self.namespace[name] = value
+        return name
+
+    def expression(self, term: Term, cells: Cells, depth: int = 0) -> str:
+        """A Python expression, bracketed where it needs to be."""
+        if depth > DEEPEST and not isinstance(term, Literal | Variable):
+            return self._hoisted(term, cells)
+        match term:
+            case Literal(value=value):
+                return self._constant(value)
+            case Variable(level=level):
+                return cells[level].text
+            case FluentTerm(fluent=name, args=args):
+                return f"s[{self.slot(self.layout.places[name], args, cells, depth + 1)}]"
+            case StaticTerm(static=name, args=args):
+                return self._static(self.theory.statics[name], args, cells, depth + 1)
+            case DefinedTerm(definition=name, args=args):
+                definition = self.theory.definitions[name]
+                return self._call(self._definition(definition), name, definition.parameters, args, cells, depth + 1)
+            case PossTerm(action=name, args=args):
+                parameters = self.theory.actions[name].parameters
+                return self._call(self.precondition(name), name, parameters, args, cells, depth + 1)
+            case Membership(element=element, within=within):
+                return self._membership(self.expression(element, cells, depth + 1), element.type, within)
+            case Quantified():
+                return self._quantified(term, cells, depth + 1)
+            case Operation():
+                return self._operation(term, cells, depth + 1)
+
+    def slot(self, place: Place, args: tuple[Term, ...], cells: Cells, depth: int = 0) -> str:
+        """An expression for the slot of a fluent's arguments."""
+        constant, parts = place.base, []
+        for index, (arg, type_, stride) in enumerate(zip(args, place.types, place.strides, strict=True)):
+            known, value = _known(arg, cells)
+            if known and value in type_:
+                constant += stride * place.positions[index][value]
+                continue
+            text = self.expression(arg, cells, depth)
+            if not fits(arg.type, type_):
+                check = _Positions(place.positions[index], arg, place.fluent.name, type_)
+                text = f"{self.bind('position', check)}[{text}]"
+            elif isinstance(type_, Interval):
+                constant -= stride * type_.low
+            else:
+                text = f"{self.bind('position', place.positions[index])}[{text}]"
+            parts.append(text if stride == 1 else f"{text}*{stride}")
+        if not parts:
+            return str(constant)
+        return "+".join(parts) + (f"{constant:+d}" if constant else "")
+
+    def checked(
+        self, term: Term, type_: Type, cells: Cells, failure: Callable[[Value], Exception], depth: int = 0
+    ) -> str:
+        """An expression for a term that fails unless its value belongs to a type."""
+        text = self.expression(term, cells, depth)
+        known, value = _known(term, cells)
+        if fits(term.type, type_) or (known and value in type_):
+            return text
+        return f"{self.bind('check', _check(type_, failure))}({text})"
+
+    def arguments(
+        self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], cells: Cells, depth: int = 0
+    ) -> list[str]:
+        """Expressions for the arguments of something, each checked against its parameter's type."""
+        return [
+            self.checked(arg, parameter.type, cells, _argument_failure(arg, what, parameter.type), depth)
+            for parameter, arg in zip(parameters, args, strict=True)
+        ]
+
+    def precondition(self, name: str) -> str:
+        """The name of the function of an action's precondition: state and arguments to truth value."""
+        action = self.theory.actions[name]
+
+        def body(cells: Cells) -> str:
+            return " and ".join(self.expression(condition, cells) for condition in action.preconditions) or "True"
+
+        return self._once("poss", name, len(action.parameters), body)
+
+    def _definition(self, definition: Definition) -> str:
+        return self._once(
+            "define", definition.name, len(definition.parameters), lambda cells: self.expression(definition.body, cells)
+        )
+
+    def _once(self, kind: str, name: str, parameters: int, body: Callable[[Cells], str]) -> str:
+        if (kind, name) not in self._made:
+            cells = variables(parameters)
+            self._made[kind, name] = self._define(", ".join(["s", *(c.text for c in cells)]), [f"return {body(cells)}"])
+        return self._made[kind, name]
+
+    def _define(self, parameters: str, lines: list[str]) -> str:
+        name = f"f_{len(self.namespace)}"
+        self.namespace[name] = None
+        text = "\n    ".join([f"def {name}({parameters}):", *lines])
+        exec(compile(text, f"<golc {self.theory.name}>", "exec"), self.namespace)
+        return name
+
+    def _hoisted(self, term: Term, cells: Cells) -> str:
+        names = ["s", *dict.fromkeys(cell.text.partition("[")[0] for cell in cells if not cell.known)]
+        parameters = ", ".join(names)
+        return f"{self._define(parameters, [f'return {self.expression(term, cells)}'])}({parameters})"
+
+    def _constant(self, value: Value) -> str:
+        return repr(value) if value is None or isinstance(value, int | str) else self.bind("constant", value)
+
+    def _call(
+        self,
+        function: str,
+        what: str,
+        parameters: tuple[Parameter, ...],
+        args: tuple[Term, ...],
+        cells: Cells,
+        depth: int,
+    ) -> str:
+        return f"{function}({', '.join(['s', *self.arguments(what, parameters, args, cells, depth)])})"
+
+    def _static(self, static: Static, args: tuple[Term, ...], cells: Cells, depth: int) -> str:
+        texts = self.arguments(static.name, static.parameters, args, cells, depth)
+        if ("static", static.name) not in self._made:
+            self._made["static", static.name] = self._made_static(static)
+        return (
+            f"{self._made['static', static.name]}[{''.join(f'{text}, ' for text in texts)}]"
+            if texts
+            else (f"{self._made['static', static.name]}[()]")
+        )
+
+    def _made_static(self, static: Static) -> str:
+        """The name of a mapping from argument tuples; that of an expression is filled when it is asked."""
+        if isinstance(static.body, Mapping):
+            return self.bind("table", static.body)
+        memo = _Memo(static)
+        name = self._made["static", static.name] = self.bind("static", memo)  # before its body, which may be recursive
+        cells = variables(len(static.parameters))
+        body = static.body
+        signature = ", ".join(["s", *(cell.text for cell in cells)])
+        memo.function = self.function(signature, [f"return {self.expression(body, cells)}"])
+        return name
+
+    def _membership(self, element: str, type_: Type, within: Type) -> str:
+        if fits(type_, within):
+            return f"({element} is not ...)"  # always true, but the element's own errors stay
+        if isinstance(within, Interval) and type_.kinds == {"int"}:
+            return f"({within.low} <= {element} <= {within.high})"
+        return f"({element} in {self.bind('set', frozenset(within.values))})"
+
+    def _operation(self, term: Operation, cells: Cells, depth: int) -> str:
+        op, args = term.op, term.args
+        if op in ORDERED and term.order is not None:
+            order = self.bind("order", {value: index for index, value in enumerate(term.order)})
+            texts = [f"{order}[{self._some(arg, cells, depth)}]" for arg in args]
+        elif op in EXACT:
+            texts = [self.expression(arg, cells, depth) for arg in args]
+        elif op is Operator.CONDITIONAL:
+            then, condition, otherwise = (self.expression(arg, cells, depth) for arg in args)
+            return f"({then} if {condition} else {otherwise})"
+        else:
+            texts = [self._some(arg, cells, depth) for arg in args]
+        match op:
+            case Operator.NOT:
+                return f"(not {texts[0]})"
+            case Operator.IMPLIES:
+                return f"(not {texts[0]} or {texts[1]})"
+            case Operator.NEGATE:
+                return f"(-{texts[0]})"
+            case Operator.DIVIDE | Operator.MODULO:
+                return self._quotient(term, texts, cells)
+            case _ if op in CALLS:
+                return f"{CALLS[op]}({', '.join(texts)})"
+            case _:
+                return f"({f' {INFIX[op]} '.join(texts)})"
+
+    def _quotient(self, term: Operation, texts: list[str], cells: Cells) -> str:
+        known, value = _known(term.args[1], cells)
+        divisor = texts[1]
+        if not (known and value):
+            divisor = f"{self.bind('divisor', _divisor(term))}({divisor})"
+        return f"({texts[0]} {term.op.value} {divisor})"
+
+    def _some(self, term: Term, cells: Cells, depth: int) -> str:
+        text = self.expression(term, cells, depth)
+        return f"{self.bind('some', _some(term))}({text})" if "none" in term.type.kinds else text
+
+    def _quantified(self, term: Quantified, cells: Cells, depth: int) -> str:
+        bindings = prod(len(binder.variable.type.values) for binder in term.binders)
+        if bindings * sum(1 for _ in subterms(term)) <= LARGEST_UNROLLED and term.kind in ("exists", "forall"):
+            return self._unrolled(term, cells, depth)
+        inner, clauses = self.loops(term.binders, term.where, cells)
+        body = self.expression(term.body, inner, depth)
+        match term.kind:
+            case "exists":
+                return f"any({body} {clauses})"
+            case "forall":
+                return f"all({body} {clauses})"
+            case "count":
+                return f"sum(1 {clauses} {'if' if term.where is None else 'and'} {body})"
+            case "sum":
+                return f"sum({body} {clauses})"
+            case _:
+                return f"{self.bind('extremum', _extremum(term))}([{body} {clauses}])"
+
+    def _unrolled(self, term: Quantified, cells: Cells, depth: int) -> str:
+        cases = []
+        for values in product(*(binder.variable.type.values for binder in term.binders)):
+            inner = (*cells, *(Cell(self._constant(value), True, value) for value in values))
+            body = self.expression(term.body, inner, depth)
+            if term.where is not None:
+                where = self.expression(term.where, inner, depth)
+                body = f"({where} and {body})" if term.kind == "exists" else f"(not {where} or {body})"
+            cases.append(body)
+        return f"({' or '.join(cases) or False})" if term.kind == "exists" else f"({' and '.join(cases) or True})"
+
+
+def environment(depth: int) -> Cells:
+    """The cells of a program's variables: elements of the tuple ``e``."""
+    return tuple(Cell(f"e[{level}]") for level in range(depth))
+
+
+def variables(count: int) -> Cells:
+    """The cells of parameters: Python variables of their own."""
+    return tuple(Cell(f"v{level}") for level in range(count))
+
+
+def fits(inner: Type, outer: Type) -> bool:
+    """Whether the types alone prove that every value of the one belongs to the other."""
+    if inner == outer:
+        return True
+    if isinstance(inner, Interval) and isinstance(outer, Interval):
+        return outer.low <= inner.low and inner.high <= outer.high
+    if not inner.finite:
+        return inner.kinds <= outer.kinds and not outer.finite
+    if not outer.finite:
+        return inner.kinds <= outer.kinds
+    return len(inner.values) <= len(outer.values) and all(value in outer for value in inner.values)
+
+
+def _known(term: Term, cells: Cells) -> tuple[bool, Value]:
+    match term:
+        case Literal(value=value):
+            return True, value
+        case Variable(level=level):
+            return cells[level].known, cells[level].value
+        case _:
+            return False, None
+
+
+class _Positions(dict[Value, int]):
+    """The places of a parameter's values; asked for another one, it raises the error with its place."""
+
+    def __init__(self, positions: Mapping[Value, int], arg: Term, what: str, type_: Type) -> None:
+        super().__init__(positions)
+        self._failure = _argument_failure(arg, what, type_)
+
+    def __missing__(self, value: Value) -> int:
+        raise self._failure(value)
+
+
+class _Memo(dict[tuple[Value, ...], Value]):
+    """The values of a static function, computed when they are first asked for."""
+
+    function: Callable[..., Value]
+
+    def __init__(self, static: Static) -> None:
+        super().__init__()
+        self._static = static
+
+    def __missing__(self, args: tuple[Value, ...]) -> Value:
+        static = self._static
+        try:
+            value = self.function((), *args)
+        except RecursionError:
+            raise errors.endless(static.span, static.name) from None
+        if value not in static.type:
+            assert not isinstance(static.body, Mapping)
+            raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
+        self[args] = value
+        return value
+
+
+def _argument_failure(arg: Term, what: str, type_: Type) -> Callable[[Value], Exception]:
+    return lambda value: errors.argument_outside(arg.span, what, value, type_)
+
+
+def _check(type_: Type, failure: Callable[[Value], Exception]) -> Callable[[Value], Value]:
+    def check(value: Value) -> Value:
+        if value in type_:
+            return value
+        raise failure(value)
+
+    return check
+
+
+def _some(term: Term) -> Callable[[Value], Value]:
+    def some(value: Value) -> Value:
+        if value is None:
+            raise errors.nothing(term.span, "an operand")
+        return value
+
+    return some
+
+
+def _divisor(term: Operation) -> Callable[[int], int]:
+    def divisor(value: int) -> int:
+        if value == 0:
+            raise errors.division_by_zero(term.span)
+        return value
+
+    return divisor
+
+
+def _extremum(term: Quantified) -> Callable[[list[int]], int]:
+    choose = min if term.kind == "min" else max
+
+    def extremum(values: list[int]) -> int:
+        if not values:
+            raise errors.empty_extremum(term.span, term.kind)
+        return choose(values)
+
+    return extremum

@@ -1,0 +1,203 @@
+"""How situations develop: the initial state, what is possible in a state, and the state after an action.
+
+A state holds the value of every ground fluent now (*progression*); the history is no part of it and is never replayed,
+so that no answer here gets slower with time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+from golc.diagnostics import Span
+from golc.situation import errors
+from golc.situation.compile import Cells, Compiler, variables
+from golc.situation.interpret import Interpreter
+from golc.situation.layout import Layout, State
+from golc.theory.terms import FluentTerm, Term, Variable
+from golc.theory.theory import Action, BasicActionTheory, Effect
+from golc.theory.types import Value, show_call
+
+Args: TypeAlias = tuple[Value, ...]
+
+
+@dataclass(frozen=True)
+class Surprise:
+    """A sensing result that the state did not expect.
+
+    ``fluent`` is the ground fluent that took the value; none if something other than a fluent was sensed, and the state
+    could not be changed.
+    """
+
+    action: str
+    sensed: Value
+    expected: Value
+    fluent: str | None
+    span: Span
+
+
+class Dynamics:
+    """The compiled theory: every question about states and ground actions.
+
+    Arguments of actions are taken to be of the right types (``misfit`` checks them where they come from outside).
+    Methods that evaluate raise ``ProgramError`` where the language says that something is an error.
+    """
+
+    def __init__(self, theory: BasicActionTheory) -> None:
+        self.theory = theory
+        self.layout = Layout(theory)
+        self.interpreter = Interpreter(theory, self.layout)
+        self.compiler = Compiler(theory, self.layout)
+        self._possible = _Lazy(self._compile_possible)
+        self._progress = _Lazy(self._compile_progress)
+        self._sense = _Lazy(self._compile_sense)
+
+    def initial(self) -> State:
+        """The initial state."""
+        return self.interpreter.initial()
+
+    def possible(self, state: State, action: str, args: Args) -> bool:
+        """Whether the action's preconditions hold."""
+        return bool(self._possible[action](state, *args))
+
+    def possible_function(self, action: str) -> Callable[..., bool]:
+        """The compiled precondition: a function of the state and each argument."""
+        return self._possible[action]
+
+    def progress(self, state: State, action: str, args: Args) -> State:
+        """The state after the action: all its effects at once, everything else unchanged."""
+        after: State = self._progress[action](state, *args)
+        return after
+
+    def sense(self, state: State, action: str, args: Args) -> tuple[Value, ...]:
+        """What the action's sensed terms are in a state (the one after its effects), in order."""
+        return tuple(self._sense[action](state, *args))
+
+    def assimilate(
+        self, state: State, action: str, args: Args, results: Sequence[Value]
+    ) -> tuple[State, list[Surprise]]:
+        """Put sensing results into the state after the action's effects: a sensed fluent takes the value."""
+        surprises = []
+        senses = self.theory.actions[action].senses
+        for term, expected, sensed in zip(senses, self.sense(state, action, args), results, strict=True):
+            if sensed == expected:
+                continue
+            state, name = self._put(state, term, args, sensed)
+            surprises.append(Surprise(action, sensed, expected, name, term.span))
+        return state, surprises
+
+    def _put(self, state: State, term: Term, args: Args, value: Value) -> tuple[State, str | None]:
+        if not isinstance(term, FluentTerm):
+            return state, None
+        place = self.layout.places[term.fluent]
+        of = tuple(self.interpreter.evaluate(arg, state, args) for arg in term.args)
+        if value not in place.fluent.type:
+            raise errors.value_outside(term.span, show_call(term.fluent, of), value, place.fluent.type)
+        slot = place.slot(of)
+        return (*state[:slot], value, *state[slot + 1 :]), show_call(term.fluent, of)
+
+    def value(self, state: State, fluent: str, args: Args = ()) -> Value:
+        """The value of a ground fluent."""
+        return state[self.layout.places[fluent].slot(args)]
+
+    def show(self, state: State) -> dict[str, Value]:
+        """Each ground fluent as text with its value."""
+        names = (show_call(name, args) for name, args in self.layout.ground_fluents)
+        return dict(zip(names, state, strict=True))
+
+    def misfit(self, action: str, args: Args) -> str | None:
+        """What is wrong with the arguments of a ground action, or none: their number or their types."""
+        parameters = self.theory.actions[action].parameters
+        if len(args) != len(parameters):
+            takes = f"{len(parameters)} argument{'' if len(parameters) == 1 else 's'}"
+            return f"`{action}` takes {takes}, not {len(args)}"
+        for parameter, arg in zip(parameters, args, strict=True):
+            if arg not in parameter.type:
+                call = show_call(action, args)
+                return f"{show_call('', (arg,))[1:-1]} in `{call}` is outside {errors.describe(parameter.type)}"
+        return None
+
+    def _compile_possible(self, name: str) -> Callable[..., bool]:
+        function: Callable[..., bool] = self.compiler.namespace[self.compiler.precondition(name)]
+        return function
+
+    def _compile_sense(self, name: str) -> Callable[..., tuple[Value, ...]]:
+        action = self.theory.actions[name]
+        cells = variables(len(action.parameters))
+        terms = "".join(f"{self.compiler.expression(term, cells)}, " for term in action.senses)
+        return self.compiler.function(_signature(cells), [f"return ({terms})"])
+
+    def _compile_progress(self, name: str) -> Callable[..., State]:
+        action = self.theory.actions[name]
+        cells = variables(len(action.parameters))
+        if not action.effects:
+            return self.compiler.function(_signature(cells), ["return s"])
+        if _may_conflict(action):
+            lines = ["w = {}", *self._effect_lines(action, cells, collect=True), "r = list(s)"]
+            lines += ["for i in w: r[i] = w[i]", "return tuple(r)"]
+        else:
+            lines = ["r = list(s)", *self._effect_lines(action, cells, collect=False), "return tuple(r)"]
+        return self.compiler.function(_signature(cells), lines)
+
+    def _effect_lines(self, action: Action, cells: Cells, collect: bool) -> list[str]:
+        lines = []
+        for effect in action.effects:
+            indent, inner = "", cells
+            for binder in effect.binders:
+                inner, loop = self.compiler.loops((binder,), None, inner)
+                lines.append(f"{indent}{loop}:")
+                indent += "  "
+            for condition in (effect.where, effect.condition):
+                if condition is not None:
+                    lines.append(f"{indent}if {self.compiler.expression(condition, inner)}:")
+                    indent += "  "
+            lines += [indent + line for line in self._assignment(effect, inner, collect)]
+        return lines
+
+    def _assignment(self, effect: Effect, cells: Cells, collect: bool) -> list[str]:
+        place = self.layout.places[effect.fluent]
+        slot = self.compiler.slot(place, effect.args, cells)
+        value = self.compiler.checked(effect.value, place.fluent.type, cells, self._outside(effect))
+        if not collect:
+            return [f"i = {slot}", f"r[i] = {value}"]
+        conflict = self.compiler.bind("conflict", self._conflict(effect))
+        return [f"i = {slot}", f"x = {value}", f"if w.setdefault(i, x) != x: {conflict}(i, w[i], x)"]
+
+    def _outside(self, effect: Effect) -> Callable[[Value], Exception]:
+        place = self.layout.places[effect.fluent]
+        return lambda value: errors.value_outside(effect.value.span, place.fluent.name, value, place.fluent.type)
+
+    def _conflict(self, effect: Effect) -> Callable[[int, Value, Value], None]:
+        def conflict(slot: int, first: Value, second: Value) -> None:
+            raise errors.conflicting_effects(effect.span, show_call(*self.layout.ground_fluents[slot]), first, second)
+
+        return conflict
+
+
+class _Lazy(dict[str, Callable[..., Any]]):
+    """Compiles a function for an action when it is first asked for."""
+
+    def __init__(self, make: Callable[[str], Callable[..., Any]]) -> None:
+        super().__init__()
+        self._make = make
+
+    def __missing__(self, name: str) -> Callable[..., Any]:
+        self[name] = function = self._make(name)
+        return function
+
+
+def _signature(cells: Cells) -> str:
+    return ", ".join(["s", *(cell.text for cell in cells)])
+
+
+def _may_conflict(action: Action) -> bool:
+    """Whether two of an action's effects, or two bindings of one, might touch the same ground fluent."""
+    fluents = [effect.fluent for effect in action.effects]
+    return len(set(fluents)) < len(fluents) or not all(_injective(effect) for effect in action.effects)
+
+
+def _injective(effect: Effect) -> bool:
+    """Whether different bindings certainly lead to different arguments: each bound variable is one of them."""
+    args = {arg.level for arg in effect.args if isinstance(arg, Variable)}
+    return all(binder.variable.level in args for binder in effect.binders)

@@ -1,0 +1,62 @@
+"""What can go wrong while a term is evaluated or an action is carried out; one function for each, with its place."""
+
+from __future__ import annotations
+
+from golc.diagnostics import Code, Diagnostic, ProgramError, Span
+from golc.theory.types import Type, Value, show
+
+
+def argument_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
+    """An argument is outside its parameter's type; ``what`` names what it is an argument of."""
+    if value is None:
+        return nothing(span, f"an argument of {what}")
+    message = f"argument {show(value)} of {what} is outside its type {describe(type_)}"
+    return ProgramError(Diagnostic(Code.ARGUMENT_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
+
+
+def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
+    """A fluent or a static function would get a value outside its type."""
+    message = f"{what} would become {show(value)}, which is outside its type {describe(type_)}"
+    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
+
+
+def nothing(span: Span, where: str) -> ProgramError:
+    """``none`` where a value is needed."""
+    return ProgramError(
+        Diagnostic(
+            Code.NOTHING,
+            f"{where} is `none`, where a value is needed",
+            span,
+            marker="`none` here",
+            help="ask `… != none and …` first",
+        )
+    )
+
+
+def division_by_zero(span: Span) -> ProgramError:
+    """The right side of ``//`` or ``%`` is 0."""
+    return ProgramError(Diagnostic(Code.DIVISION_BY_ZERO, "division by zero", span, marker="the divisor is 0 here"))
+
+
+def empty_extremum(span: Span, kind: str) -> ProgramError:
+    """``min`` or ``max`` over no binding at all."""
+    message = f"`{kind}` over nothing has no value"
+    return ProgramError(Diagnostic(Code.EMPTY_EXTREMUM, message, span, marker="no binding satisfies its `where`"))
+
+
+def conflicting_effects(span: Span, fluent: str, first: Value, second: Value) -> ProgramError:
+    """Two effects of one action give one ground fluent two values."""
+    message = f"two effects give {fluent} the values {show(first)} and {show(second)}"
+    return ProgramError(Diagnostic(Code.CONFLICTING_EFFECTS, message, span, marker=f"{show(second)} here"))
+
+
+def endless(span: Span, what: str) -> ProgramError:
+    """A recursion that goes deeper than anything sensible."""
+    message = f"the recursion of {what} does not end, or goes too deep"
+    return ProgramError(Diagnostic(Code.ENDLESS_RECURSION, message, span))
+
+
+def describe(type_: Type) -> str:
+    """A type for a message: its name and, if that hides a range, the range."""
+    name, low = str(type_), getattr(type_, "low", None)
+    return f"{name} ({low}..{getattr(type_, 'high', None)})" if low is not None and ".." not in name else name
