@@ -121,6 +121,28 @@ class Code(Enum):
     EVENTS = ("GL110", "a line of an events file cannot be understood")
     EVENT = ("GL111", "an action is written that cannot be reported or performed so")
 
+    # 080..099: devices and NQC
+    NO_DEVICE = ("GL080", "a primitive action has no device")
+    BOUND_TWICE = ("GL081", "two bindings have the same ground action")
+    NUMBER_CLASH = ("GL082", "two bindings take the same number")
+    NUMBER_RANGE = ("GL083", "a number does not fit the brick")
+    BINDING_UNBOUNDED = ("GL084", "a binding ranges over a type whose values cannot be listed")
+    SENSING_NUMBER = ("GL085", "a sensing value that the brick cannot answer with")
+    UNREPORTED = ("GL086", "an exogenous action that no device reports")
+    NO_END = ("GL087", "a behaviour is started and nothing tells its end")
+    NQC_NAME = ("GL088", "a name that NQC does not take")
+    DEVICE_SETTING = ("GL089", "a setting of a device makes no sense")
+    DEVICE_KIND = ("GL090", "a device of an unknown kind")
+    BEHAVIOUR_KIND = ("GL091", "a behaviour does not fit the kind of device")
+    MESSAGE_RANGES = ("GL092", "two ranges of messages overlap")
+    ARGUMENT_NUMBER = ("GL093", "an argument that a behaviour cannot be given")
+    NQC_REFUSED = ("GL094", "the NQC compiler refuses the program")
+    NQC_LIMIT = ("GL095", "the program is too large for the brick")
+    NQC_BEHAVIOUR = ("GL096", "a behaviour in the NQC file does not fit its binding")
+    NQC_BUSY = ("GL097", "a task that never rests slows down the answers")
+    NQC_SAMPLED = ("GL098", "exogenous actions are sampled and may be lost")
+    NQC_EDITED = ("GL099", "a generated file was edited and is left alone")
+
     def __init__(self, code: str, title: str) -> None:
         self.code = code
         self.title = title
