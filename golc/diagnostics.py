@@ -84,6 +84,13 @@ class Code(Enum):
     # 001..009: text and syntax
     UNREADABLE = ("GL001", "the file cannot be read as text")
     SYNTAX = ("GL002", "the text does not follow the grammar")
+    INDENTATION = ("GL003", "the indentation makes no block")
+    MISSING = ("GL004", "a colon, a bracket or a block is missing")
+    FOREIGN = ("GL005", "the notation of another language")
+    RESERVED = ("GL006", "a word of the language is used as a name")
+    STRING = ("GL007", "a string or a message cannot be read")
+    NESTING = ("GL008", "the text is nested too deeply")
+    DOMAIN = ("GL009", "the domain line is missing or out of place")
 
     # 010..049: names, types, declarations
     UNSUPPORTED = ("GL010", "a part of the language that is not supported yet")
