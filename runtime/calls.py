@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -10,6 +9,7 @@ from golc.syntax.parse import parse_expression
 
 from golc.diagnostics import NOWHERE, Code, Diagnostic, Findings, Source, Span
 from golc.syntax import tree
+from golc.theory.suggest import closest
 from golc.theory.theory import Action, BasicActionTheory, Parameter
 from golc.theory.types import Enumeration, Interval, Optional, Type, Value, show_call
 
@@ -78,11 +78,8 @@ def describe(type_: Type) -> str:
 
 def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
     """A proposal for a misspelt name."""
-    match difflib.get_close_matches(name, list(candidates), n=1, cutoff=0.6):
-        case [best]:
-            return f"did you mean `{best}`?"
-        case _:
-            return None
+    best = closest(name, candidates)
+    return None if best is None else f"did you mean `{best}`?"
 
 
 def parse_at(where: Span, findings: Findings) -> tree.Expr | None:

@@ -103,6 +103,11 @@ class Player:
         """When the next event that is already certain happens."""
         return self._due[0][0] if self._due else None
 
+    @property
+    def pending(self) -> int:
+        """How many events are certain and have not happened."""
+        return len(self._due)
+
     def _push(self, time: float, event: Call) -> None:
         heapq.heappush(self._due, (time, self._counter, event))
         self._counter += 1

@@ -1,0 +1,103 @@
+"""The one queue through which the world reaches the online loop, in order of arrival.
+
+Any thread may put items in; only the loop takes them out.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Literal, Protocol, TypeAlias
+
+from golc.diagnostics import Diagnostic, GolcError
+from golc.theory.theory import Action
+from golc.theory.types import Value
+
+Reply: TypeAlias = Callable[[object], None]
+"""Gets what a command answers: a mapping (state), a list of texts (history), or ``None``."""
+
+
+@dataclass(frozen=True, slots=True)
+class Report:
+    """An exogenous action that has occurred: it is declared, its arguments fit, and its source may report it."""
+
+    action: str
+    args: tuple[Value, ...]
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """What the operator wants of the run itself."""
+
+    name: Literal["state", "history", "abort", "stop"]
+    source: str
+    reply: Reply = field(compare=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """A line that was refused."""
+
+    text: str
+    source: str
+    diagnostics: tuple[Diagnostic, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Closed:
+    """A source will report nothing any more."""
+
+    source: str
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """A source or a device failed outside an action."""
+
+    source: str
+    error: GolcError
+
+
+Item: TypeAlias = Report | Command | Refusal | Closed | Broken
+
+
+class Source(Protocol):
+    """Something that may report exogenous actions."""
+
+    @property
+    def name(self) -> str:
+        """How messages speak of it."""
+        ...
+
+    @property
+    def ended(self) -> bool:
+        """Whether it will never report anything again."""
+        ...
+
+    def may_report(self, action: Action) -> bool:
+        """Whether it is allowed and able to report this exogenous action."""
+        ...
+
+
+class Inbox:
+    """A queue whose reader may look without cost, and wait."""
+
+    def __init__(self) -> None:
+        self.items: deque[Item] = deque()
+        self.on_urgent: Callable[[], None] = lambda: None
+        self._arrived = threading.Event()
+
+    def put(self, item: Item) -> None:
+        """Add an item; a command that must not wait for the action under way also calls ``on_urgent`` at once."""
+        self.items.append(item)
+        self._arrived.set()
+        if isinstance(item, Command) and item.name in ("abort", "stop"):
+            self.on_urgent()
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Wait until there is an item, at most for some seconds; whether there is one."""
+        self._arrived.clear()
+        return bool(self.items) or self._arrived.wait(timeout)
