@@ -1,0 +1,149 @@
+"""``golc sim``: the simulated brick as a process of its own."""
+
+from __future__ import annotations
+
+import contextlib
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from golc.cli.common import Console, console_options, constants_option
+
+if TYPE_CHECKING:
+    from golc.runtime.rcxsim.ports import Port
+    from golc.runtime.rcxsim.trace import Record
+
+FULL = {
+    "unknown": "the host sent number {number}, which the brick has no action for; answered 0",
+    "panicked": "{why}: the brick panics until it is aborted",
+    "senseless": "{action} could not be sensed, answered 0: {problem}",
+}
+"""What is said on stderr of records that mean trouble; see also ``problem``."""
+
+
+def _address(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[str, int] | None:
+    if value is None:
+        return None
+    host, colon, port = value.rpartition(":")
+    if not colon or not host or not port.isdecimal() or int(port) > 65535:
+        raise click.BadParameter(f"{value!r} is not of the form HOST:PORT, with a port from 0 (any free one) to 65535")
+    return host.strip("[]"), int(port)
+
+
+@click.command()
+@click.argument("file", type=click.Path(path_type=Path))
+@click.option(
+    "--pty", "link", type=click.Path(path_type=Path), metavar="PATH", help="Make a link to the terminal here."
+)
+@click.option("--tcp", metavar="HOST:PORT", callback=_address, help="Listen here instead; port 0 is any free one.")
+@click.option(
+    "--speed",
+    type=click.FloatRange(0.01, 1000),
+    default=1.0,
+    show_default=True,
+    help="How fast the robot's world goes.",
+)
+@click.option(
+    "--air-time",
+    type=click.FloatRange(0, 10),
+    default=1.0,
+    show_default=True,
+    help="Factor on the air time of 2400 baud, which --speed divides too; 0: messages take no time.",
+)
+@click.option("--loss", type=click.FloatRange(0, 1), default=0.0, metavar="P", help="Chance that a message is lost.")
+@click.option("--garble", type=click.FloatRange(0, 1), default=0.0, metavar="P", help="Chance that it is damaged.")
+@click.option("--seed", type=int, default=0, show_default=True, help="Of everything that is left to chance.")
+@click.option("--events", type=click.Path(path_type=Path), metavar="FILE", help="What happens, instead of chance.")
+@click.option(
+    "--trace", type=click.Path(path_type=Path), metavar="FILE", help="Write what the brick does, as JSON lines."
+)
+@click.option("--echo/--no-echo", default=True, help="Whether the tower echoes what the host sends, as serial ones do.")
+@click.option(
+    "--sleep/--no-sleep", default=True, help="Whether the tower falls asleep after 4 s of the host's silence."
+)
+@click.option("--until-stdin-closes", is_flag=True, hidden=True)
+@constants_option
+@console_options
+def command(
+    file: Path,
+    link: Path | None,
+    tcp: tuple[str, int] | None,
+    speed: float,
+    air_time: float,
+    loss: float,
+    garble: float,
+    seed: int,
+    events: Path | None,
+    trace: Path | None,
+    echo: bool,
+    sleep: bool,
+    until_stdin_closes: bool,
+    constants: Mapping[str, str],
+    console: Console,
+) -> None:
+    """Simulate the brick that FILE describes, behind a serial port that `golc run --port` can use.
+
+    The brick knows the theory only, never the program: it does what it is told, takes a while for it, senses, and
+    reports exogenous actions, by the script of --events or by chance. Prints one line, `pty PATH` or `tcp HOST:PORT`,
+    when it is ready, and ends on Ctrl-C.
+
+    \b
+    golc sim examples/delivery/delivery.gl --pty /tmp/brick --speed 5 &
+    golc run examples/delivery/delivery.gl --port /tmp/brick
+    """
+    if link is not None and tcp is not None:
+        raise click.UsageError("--pty and --tcp exclude each other")
+    from golc.loading import load
+    from golc.runtime.rcxsim.line import TOWER_SLEEPS_AFTER, LineOptions
+    from golc.runtime.rcxsim.serve import serve, stopped_by_signals
+    from golc.runtime.rcxsim.simulator import SimulatorOptions, build
+    from golc.runtime.rcxsim.trace import Trace, to_file
+    from golc.runtime.schedule import read_schedule
+
+    theory = load(file, constants)
+    schedule = None if events is None else read_schedule(events, theory)
+    options = SimulatorOptions(
+        LineOptions(air_time / speed, loss, garble, echo, TOWER_SLEEPS_AFTER if sleep else None), speed, seed
+    )
+    with contextlib.ExitStack() as stack:
+        readers = [_teller(console)]
+        if trace is not None:
+            readers.append(to_file(stack.enter_context(_opened(trace))))
+        line = build(theory, options, schedule, Trace(*readers))
+        stops = [stack.enter_context(stopped_by_signals())]
+        if until_stdin_closes:
+            stops.append(sys.stdin.fileno())
+        port = stack.enter_context(contextlib.closing(_port(link, tcp)))
+        console.out(port.description)
+        serve(line, port, stops)
+
+
+def _port(link: Path | None, tcp: tuple[str, int] | None) -> Port:
+    from golc.runtime.rcxsim.ports import PtyPort, TcpPort
+
+    return PtyPort(link) if tcp is None else TcpPort(*tcp)
+
+
+def _opened(path: Path) -> Any:
+    try:
+        return path.open("w", encoding="utf-8")
+    except OSError as error:
+        raise click.FileError(str(path), error.strerror) from None
+
+
+def _teller(console: Console) -> Any:
+    """A reader of the trace that tells a person of trouble, and with ``-v`` of everything."""
+
+    def tell(record: Record) -> None:
+        problem = record.get("problem")
+        text = FULL.get(record["what"]) or ("{action}: {problem}" if problem else None)
+        if text is not None and console.verbosity >= 0:
+            console.err(f"{record['t']:9.3f} s  " + text.format(**record))
+        elif console.verbosity > 0:
+            details = "  ".join(f"{key} {value}" for key, value in record.items() if key not in ("t", "what") and value)
+            console.err(f"{record['t']:9.3f} s  {record['what']:<10} {details}")
+
+    return tell

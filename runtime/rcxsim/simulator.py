@@ -1,0 +1,72 @@
+"""Puts a simulated brick together from a theory: one line, a world, and a program for each brick that it declares."""
+
+from __future__ import annotations
+
+import random
+from dataclasses import dataclass, field
+
+from golc.diagnostics import Code, Findings, Span, UserError
+from golc.nqc.numbering import ActionMap, number_device
+from golc.runtime.rcxsim.classic import ClassicProgram
+from golc.runtime.rcxsim.events import Chance, Events, Scripted
+from golc.runtime.rcxsim.line import Line, LineOptions
+from golc.runtime.rcxsim.theorybrick import TheoryBrick
+from golc.runtime.rcxsim.trace import Trace
+from golc.runtime.rcxsim.world import World
+from golc.runtime.schedule import Player, Schedule
+from golc.theory.theory import BasicActionTheory
+
+
+@dataclass(frozen=True)
+class SimulatorOptions:
+    """``speed``: seconds of the world in one second of the line; ``seed``: of everything that is left to chance."""
+
+    line: LineOptions = field(default_factory=LineOptions)
+    speed: float = 1.0
+    seed: int = 0
+
+
+def build(theory: BasicActionTheory, options: SimulatorOptions, schedule: Schedule | None, trace: Trace) -> Line:
+    """The line with every brick of the theory, in its initial state; without a schedule events come by chance.
+
+    Raises UserError if the theory declares no brick, or if the numbers of one cannot be told apart. What is left to
+    chance is drawn from a stream of its own for each purpose, so that more noise does not change what the robot does.
+    """
+    world = World(theory, _stream(options, "world"), trace)
+    programs = []
+    for numbers in bricks(theory):
+        name = numbers.device.name
+        events: Events
+        if schedule is None:
+            events = Chance(world, numbers, _stream(options, f"events of {name}"))
+        else:
+            events = Scripted(Player(_reported_by(numbers, schedule)))
+        durations = _stream(options, f"durations of {name}")
+        brick = TheoryBrick(world, numbers, events, durations, options.speed, trace)
+        programs.append(ClassicProgram(brick, numbers.wire, trace))
+    return Line(programs, options.line, _stream(options, "noise"), trace)
+
+
+def bricks(theory: BasicActionTheory) -> list[ActionMap]:
+    """The numbers of every brick that a theory declares; raises UserError if there is none or they make no sense."""
+    findings = Findings()
+    found = [number_device(theory, device, findings) for device in theory.devices if device.kind == "rcx"]
+    if not found:
+        findings.error(
+            Code.NO_DEVICE,
+            f"domain {theory.name} declares no brick to simulate",
+            Span(theory.source, 0, 0),
+            help='add a block `device rcx "behaviours.nqc":` with the actions that the brick does',
+        )
+    if findings.has_errors:
+        raise UserError(*findings.diagnostics)
+    return found
+
+
+def _reported_by(numbers: ActionMap, schedule: Schedule) -> Schedule:
+    """The lines that are about this brick; the others are for the host."""
+    return schedule.only(lambda call: numbers.handles(call.action, call.args))
+
+
+def _stream(options: SimulatorOptions, purpose: str) -> random.Random:
+    return random.Random(f"{options.seed}: {purpose}")

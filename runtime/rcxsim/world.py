@@ -1,0 +1,88 @@
+"""The world as the theory describes it: a state of its own, which the host never sees."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from typing import Any
+
+from golc.diagnostics import ProgramError
+from golc.runtime.rcxsim.trace import Trace
+from golc.situation.dynamics import Args, Dynamics
+from golc.situation.layout import State
+from golc.theory.terms import FluentTerm
+from golc.theory.theory import BasicActionTheory
+from golc.theory.types import Value, show, show_call
+
+
+class World:
+    """What is true around the simulated brick; actions of either side change it by the theory's effects."""
+
+    def __init__(self, theory: BasicActionTheory, chance: random.Random, trace: Trace) -> None:
+        self.theory = theory
+        self.dynamics = Dynamics(theory)
+        self.state: State = self.dynamics.initial()
+        self._chance = chance
+        self._trace = trace
+        changed = {effect.fluent for action in theory.actions.values() for effect in action.effects}
+        self._constant = frozenset(theory.fluents) - changed
+        self._settled: set[tuple[str, Args]] = set()
+
+    def happen(self, action: str, args: Args, now: float, what: str) -> None:
+        """An action takes place; if the theory says it cannot, that is told and its effects are tried all the same."""
+        before, problem = self.state, None
+        try:
+            if not self.dynamics.possible(before, action, args):
+                problem = "it is not possible here"
+            self.state = self.dynamics.progress(before, action, args)
+        except ProgramError as error:
+            problem = error.diagnostic.message
+        details: dict[str, Any] = {} if problem is None else {"problem": problem}
+        self._trace.tell(now, what, action=show_call(action, args), changed=self._changes(before), **details)
+
+    def possible(self, action: str, args: Args) -> bool:
+        """Whether an action can take place now."""
+        try:
+            return self.dynamics.possible(self.state, action, args)
+        except ProgramError:
+            return False
+
+    def matters(self, action: str, args: Args, state: State | None = None) -> bool:
+        """Whether an action can take place and would change something, now or in the given state."""
+        state = self.state if state is None else state
+        try:
+            return self.dynamics.possible(state, action, args) and (
+                self.dynamics.progress(state, action, args) != state
+            )
+        except ProgramError:
+            return False
+
+    def sense(self, action: str, args: Args, answers: Sequence[Value] | None) -> Value:
+        """What a perfect device answers after the action; ``answers`` are the values that it has numbers for.
+
+        A sensed fluent that no action of the theory changes is a fact that only the world knows, whatever the theory
+        takes for its first value: chance settles it when it is sensed first.
+        """
+        self._settle(action, args, answers)
+        return self.dynamics.sense(self.state, action, args)[0]
+
+    def _settle(self, action: str, args: Args, answers: Sequence[Value] | None) -> None:
+        term = self.theory.actions[action].senses[0]
+        if not isinstance(term, FluentTerm) or term.fluent not in self._constant:
+            return
+        fluent = (term.fluent, tuple(self.dynamics.interpreter.evaluate(arg, self.state, args) for arg in term.args))
+        if fluent in self._settled:
+            return
+        self._settled.add(fluent)
+        values = term.type.values if term.type.finite else ()
+        choice = [value for value in values if answers is None or value in answers]
+        if choice:
+            self.state, _ = self.dynamics.assimilate(self.state, action, args, (self._chance.choice(choice),))
+
+    def _changes(self, before: State) -> dict[str, str]:
+        names = self.dynamics.layout.ground_fluents
+        return {
+            show_call(*name): show(new)
+            for name, old, new in zip(names, before, self.state, strict=True)
+            if old is not new and old != new
+        }
