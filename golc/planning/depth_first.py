@@ -1,0 +1,89 @@
+"""Depth-first search for a way to the end of a program, in program order.
+
+A (program, state) pair that has been expanded is skipped: what can be reached from it has been or will be looked at.
+Under a bound on steps it is expanded again when it is reached with more of the bound left.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+
+from golc.planning.limits import Budget
+from golc.program.labels import Act, Label, Transition
+from golc.program.nodes import Node
+from golc.program.step import Machine, Path
+from golc.situation.layout import State
+
+
+@dataclass
+class DeadEnd:
+    """The longest way on which a search got stuck: its actions, and where it ended."""
+
+    actions: tuple[Act, ...] = ()
+    node: Node | None = None
+    state: State = ()
+
+    def consider(self, steps: list[_Step]) -> None:
+        """Remember a dead end if it is the deepest so far."""
+        actions = tuple(step.label for step in steps if isinstance(step.label, Act))
+        if self.node is None or len(actions) > len(self.actions):
+            self.actions, self.node, self.state = actions, steps[-1].node, steps[-1].state
+
+
+@dataclass(slots=True)
+class _Step:
+    """A pair on the current way, the label that led to it, the actions up to it, and its transitions still to try."""
+
+    label: Label | None
+    node: Node
+    state: State
+    actions: int
+    transitions: Iterator[Transition]
+    leads_on: bool = field(default=False)
+
+
+def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:
+    """The first way with at least one step from a program and a state to a final pair, or none if there is none.
+
+    ``machine`` looks ahead. Raises ``LimitError`` at a limit; ``dead_end`` is told where the search got stuck.
+    """
+    reached: dict[tuple[Node, State], int] = {(node, state): 0}
+    steps = [_Step(None, node, state, 0, machine.transitions(node, state))]
+    budget.spend()
+    while steps:
+        step = steps[-1]
+        for label, residual in step.transitions:
+            step.leads_on = True
+            actions = step.actions + isinstance(label, Act)
+            if not budget.allows(actions):
+                continue
+            after = machine.successor(step.state, label)
+            if machine.final(residual, after):
+                steps.append(_Step(label, residual, after, actions, iter(())))
+                return _path(steps)
+            if _is_new(reached, (residual, after), actions, budget):
+                budget.spend()
+                steps.append(_Step(label, residual, after, actions, machine.transitions(residual, after)))
+                break
+        else:
+            if dead_end is not None and not step.leads_on:
+                dead_end.consider(steps)
+            steps.pop()
+    return None
+
+
+def _is_new(reached: dict[tuple[Node, State], int], pair: tuple[Node, State], actions: int, budget: Budget) -> bool:
+    before = reached.get(pair)
+    if before is not None and (budget.limits.steps is None or before <= actions):
+        return False
+    reached[pair] = actions
+    return True
+
+
+def _path(steps: list[_Step]) -> Path:
+    return Path(
+        tuple(step.node for step in steps),
+        tuple(step.label for step in steps if step.label is not None),
+        tuple(step.state for step in steps),
+    )

@@ -1,0 +1,100 @@
+"""Why a program cannot go on: what the rules reported, put into words with the values that things had."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from golc.diagnostics import Span
+from golc.situation.dynamics import Dynamics
+from golc.situation.layout import State
+from golc.theory.terms import DefinedTerm, FluentTerm, Operation, Operator, StaticTerm, Term, Variable, subterms
+from golc.theory.types import Value, show, show_call
+
+if TYPE_CHECKING:
+    from golc.program.rules import Rule
+
+
+@dataclass(frozen=True)
+class Blamed:
+    """A rule that had no transition, the reason's name, and what belongs to it."""
+
+    rule: Rule
+    reason: str
+    details: tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Blocked:
+    """A branch that cannot go on: its place, a sentence, and the values of what the failed condition speaks of."""
+
+    span: Span
+    text: str
+    values: tuple[tuple[str, Value], ...] = ()
+
+    def __str__(self) -> str:
+        values = ", ".join(f"{name} = {show(value)}" for name, value in self.values)
+        return f"{self.span}: {self.text}" + (f" ({values})" if values else "")
+
+
+def explain(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
+    """What a rule reported, in words."""
+    span, details = blamed.rule.span, blamed.details
+    match blamed.reason:
+        case "false":
+            term, env = details
+            return Blocked(span, f"`{_text(term)}` is false", _values(dynamics, term, state, env))
+        case "impossible":
+            return _impossible(dynamics, state, span, *details)
+        case "no interrupt":
+            handler, env = details
+            text = f"no interrupt here: `{_text(handler.term)}` does not hold"
+            return Blocked(handler.span, text, _values(dynamics, handler.term, state, env))
+        case "no value":
+            return Blocked(span, "no value can be picked")
+        case "waits":
+            return Blocked(span, "look-ahead cannot wait for an event that is not expected")
+        case _:
+            return Blocked(span, "`search` finds no way to the end of its block")
+
+
+def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args: tuple[Value, ...]) -> Blocked:
+    call = show_call(action, args)
+    for term in dynamics.theory.actions[action].preconditions:
+        for part in _conjuncts(term):
+            if not dynamics.interpreter.holds(part, state, args):
+                text = f"`{call}` is not possible: `{_text(part)}` is false"
+                return Blocked(span, text, _values(dynamics, part, state, args))
+    return Blocked(span, f"`{call}` is not possible")
+
+
+def _conjuncts(term: Term) -> Iterator[Term]:
+    stack = [term]
+    while stack:
+        term = stack.pop()
+        if isinstance(term, Operation) and term.op is Operator.AND:
+            stack.extend(reversed(term.args))
+        else:
+            yield term
+
+
+def _text(term: Term) -> str:
+    return " ".join(term.span.text.split())
+
+
+def _values(dynamics: Dynamics, term: Term, state: State, env: tuple[Value, ...]) -> tuple[tuple[str, Value], ...]:
+    """The ground fluents, definitions and variables that a term speaks of, each once, with their values."""
+    values: dict[str, Value] = {}
+    for part in subterms(term):
+        if any(isinstance(inner, Variable) and inner.level >= len(env) for inner in subterms(part)):
+            continue
+        match part:
+            case Variable(name=name, level=level):
+                values[name] = env[level]
+            case FluentTerm(fluent=name, args=args) | DefinedTerm(definition=name, args=args):
+                of = tuple(dynamics.interpreter.evaluate(arg, state, env) for arg in args)
+                values[show_call(name, of)] = dynamics.interpreter.evaluate(part, state, env)
+            case StaticTerm():
+                continue
+    return tuple(values.items())

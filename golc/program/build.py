@@ -1,0 +1,156 @@
+"""Typed statements to rules: every term is compiled once, every procedure when it is first called."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from golc.program import rules
+from golc.program.nodes import Node
+from golc.program.program import Program
+from golc.program.rules import Rule
+from golc.situation.compile import environment
+from golc.situation.dynamics import Dynamics
+from golc.theory import statements as st
+from golc.theory.terms import Binder, Term, Variable, subterms
+from golc.theory.theory import Parameter, Procedure
+from golc.theory.types import Value, show
+
+
+class Builder:
+    """Compiles the procedures of a theory into the rules of one program."""
+
+    def __init__(self, dynamics: Dynamics, program: Program) -> None:
+        self.dynamics = dynamics
+        self.theory = dynamics.theory
+        self.compiler = dynamics.compiler
+        self.program = program
+        self._bodies: dict[str, Rule] = {}
+        self._calls: list[rules.Invoke] = []
+        self._read: set[int] = set()
+
+    def start(self, procedure: str, args: tuple[Value, ...] = ()) -> Node:
+        """The program that calls a procedure; arguments must be of the parameters' types."""
+        body = self._procedure(self.theory.procedures[procedure])
+        self._resolve()
+        return self.program.at(body, args)
+
+    def _resolve(self) -> None:
+        """Give every call its procedure's body; a loop, for bodies bring further calls."""
+        while self._calls:
+            call = self._calls.pop()
+            call.body = self._procedure(self.theory.procedures[call.procedure])
+
+    def _procedure(self, procedure: Procedure) -> Rule:
+        if procedure.name not in self._bodies:
+            self._bodies[procedure.name] = self._rule(procedure.body, len(procedure.parameters))
+        return self._bodies[procedure.name]
+
+    def _rule(self, statement: st.Statement, depth: int) -> Rule:
+        outer, self._read = self._read, set()
+        rule = self._sealed(self._compiled(statement, depth), depth)
+        self._read |= outer
+        return rule
+
+    def _sealed(self, rule: Rule, depth: int) -> Rule:
+        """Tell a rule which variables it does not read, now that everything inside it has been compiled."""
+        rule.dead = frozenset(range(depth)) - self._read
+        if rule is not self.program.skip and len(rule.dead) == depth:
+            self.program.close(rule, depth)
+        return rule
+
+    def _compiled(self, statement: st.Statement, depth: int) -> Rule:
+        span = statement.span
+        match statement:
+            case st.Skip():
+                return self.program.skip
+            case st.Perform(action=action, args=args):
+                parameters = self.theory.actions[action].parameters
+                possible = self.dynamics.possible_function(action)
+                return rules.Perform(span, action, self._args(action, parameters, args, depth), possible)
+            case st.Invoke(procedure=name):
+                return self._invoke(statement, self.theory.procedures[name], depth)
+            case st.Test(condition=condition):
+                return rules.Test(span, self._term(condition, depth), condition)
+            case st.Sequence(parts=parts):
+                return self._sequence(parts, depth)
+            case st.If(condition=condition, then=then, otherwise=otherwise):
+                condition_ = self._term(condition, depth)
+                return rules.If(span, condition_, self._rule(then, depth), self._rule(otherwise, depth))
+            case st.While(condition=condition, body=body):
+                return rules.While(span, self._term(condition, depth), self._rule(body, depth))
+            case st.Choose(branches=branches):
+                return rules.Choose(span, self._rules(branches, depth))
+            case st.Pick(binders=binders, where=where, body=body):
+                environments = self._environments(binders, where, depth)
+                return rules.Pick(span, environments, self._rule(body, depth + len(binders)))
+            case st.Star(body=body):
+                return rules.Star(span, self._rule(body, depth))
+            case st.Let(value=value, body=body):
+                return rules.Let(span, self._term(value, depth), self._rule(body, depth + 1))
+            case st.Together(branches=branches):
+                return rules.Branching(span, rules.Together(span), self._rules(branches, depth))
+            case st.Prefer(branches=branches):
+                return rules.Branching(span, rules.Prefer(span), self._rules(branches, depth))
+            case st.Interrupts(handlers=handlers):
+                return rules.Interrupts(span, tuple(self._handler(handler, depth) for handler in handlers))
+            case st.Search(body=body):
+                return rules.Search(span, self._rule(body, depth))
+            case st.Wait():
+                return rules.WaitRule(span)
+            case st.WaitUntil(condition=condition):
+                return rules.WaitUntil(span, self._term(condition, depth), condition)
+            case st.Say(message=message):
+                return rules.SayRule(span, self._message(message, depth))
+            case st.Abort(message=message):
+                return rules.AbortRule(span, self._message(message, depth))
+
+    def _rules(self, statements: tuple[st.Statement, ...], depth: int) -> tuple[Rule, ...]:
+        return tuple(self._rule(statement, depth) for statement in statements)
+
+    def _sequence(self, parts: tuple[st.Statement, ...], depth: int) -> Rule:
+        """From the last statement to the first, each with the block below it."""
+        block = self._rule(parts[-1], depth)
+        for part in reversed(parts[:-1]):
+            block = self._sealed(rules.Block(part.span, self._rule(part, depth), block), depth)
+        return block
+
+    def _handler(self, handler: st.Interrupt, depth: int) -> rules.On:
+        environments = self._environments(handler.binders, handler.condition, depth)
+        body = self._rule(handler.body, depth + len(handler.binders))
+        return rules.On(handler.span, environments, handler.condition, body)
+
+    def _invoke(self, statement: st.Invoke, procedure: Procedure, depth: int) -> Rule:
+        args = self._args(procedure.name, procedure.parameters, statement.args, depth)
+        rule = rules.Invoke(statement.span, procedure.name, args, procedure.recursive)
+        self._calls.append(rule)
+        return rule
+
+    def _term(self, term: Term, depth: int) -> Callable[..., Any]:
+        self._reads(term)
+        return self.compiler.term(term, depth)
+
+    def _environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
+        if where is not None:
+            self._reads(where)
+        return self.compiler.environments(binders, where, depth)
+
+    def _args(
+        self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int
+    ) -> Callable[..., tuple[Value, ...]]:
+        for arg in args:
+            self._reads(arg)
+        texts = self.compiler.arguments(what, parameters, args, environment(depth))
+        return self.compiler.function("s, e", [f"return ({''.join(f'{text}, ' for text in texts)})"])
+
+    def _reads(self, term: Term) -> None:
+        self._read |= {part.level for part in subterms(term) if isinstance(part, Variable)}
+
+    def _message(self, message: st.Message, depth: int) -> Callable[..., str]:
+        """A function of a state and an environment that makes the text of a message."""
+        parts = [part if isinstance(part, str) else self._term(part, depth) for part in message.parts]
+
+        def text(state: Any, env: Any) -> str:
+            return "".join(part if isinstance(part, str) else show(part(state, env)) for part in parts)
+
+        return text

@@ -1,0 +1,62 @@
+"""What a transition does beside changing the program: the labels of *Trans*."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import NamedTuple, TypeAlias
+
+from golc.diagnostics import Span
+from golc.program.nodes import Node
+from golc.theory.types import Value, show_call
+
+
+@dataclass(frozen=True, slots=True)
+class Silent:
+    """A test, or a procedure reached again without a step in between: nothing happens."""
+
+    span: Span = field(compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Act:
+    """A primitive action with its arguments, by the statement at ``span``."""
+
+    action: str
+    args: tuple[Value, ...]
+    span: Span = field(compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return show_call(self.action, self.args)
+
+
+@dataclass(frozen=True, slots=True)
+class Say:
+    """A message to the operator. The text takes no part in comparison, for it may differ from state to state."""
+
+    text: str = field(compare=False)
+    span: Span = field(compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Wait:
+    """Let an exogenous action happen."""
+
+    span: Span = field(compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Abort:
+    """End the run as failed."""
+
+    text: str = field(compare=False)
+    span: Span = field(compare=False, repr=False)
+
+
+Label: TypeAlias = Silent | Act | Say | Wait | Abort
+
+
+class Transition(NamedTuple):
+    """One element of *Trans*: the label and the residual program."""
+
+    label: Label
+    residual: Node

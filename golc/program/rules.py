@@ -1,0 +1,582 @@
+"""*Trans* and *Final*, construct by construct.
+
+The definitions are those of De Giacomo, Lespérance & Levesque (2000), "ConGolog, a concurrent programming language
+based on the situation calculus", with the order of transitions that the golc manual fixes. A rule is a compiled
+statement, or one of the forms that a statement takes once it has begun; it answers two questions about its nodes:
+
+``trans``  either gives one transition of its own, or pushes the parts that have some, the one that comes first last.
+           What it pushes is looked at when the transitions before it are used up: nothing is computed in vain.
+``final``  either is decided, or says which parts it requires to be final.
+
+Neither recurses into a part that may be nested without bound: the walks (``walks``) keep the stack.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import Any, TypeAlias
+
+from golc.diagnostics import Span
+from golc.program.frames import Branch, Handler, Then, Token
+from golc.program.labels import Abort, Act, Label, Say, Silent, Wait
+from golc.program.nodes import Node
+from golc.program.walks import Proof, Walk
+from golc.situation.layout import State
+from golc.theory.terms import Term
+from golc.theory.types import Value
+
+Env: TypeAlias = tuple[Value, ...]
+Evaluate: TypeAlias = Callable[[State, Env], Any]
+"""A compiled term: its value in a state and an environment."""
+
+Found: TypeAlias = tuple[Label, Node] | None
+
+
+class Rule:
+    """The base of all rules.
+
+    ``may_finish``: whether a node can be final at all. ``dead``: the levels of the environment that the statement does
+    not read. ``closed``: the only node of a statement that reads no variable.
+    """
+
+    may_finish = True
+    dead: frozenset[int] = frozenset()
+    closed: Node | None = None
+
+    def __init__(self, span: Span) -> None:
+        self.span = span
+
+    def trans(self, walk: Walk, node: Any) -> Found:
+        """One transition, or none and more work on the walk's stack."""
+        raise NotImplementedError
+
+    def final(self, proof: Proof, node: Any) -> bool:
+        """True if final as it stands; otherwise false, having said what it requires (nothing: not final)."""
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"{type(self).__name__}@{self.span.line}"
+
+
+class Skip(Rule):
+    """*nil*: final, without transitions."""
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return True
+
+
+class Step(Rule):
+    """The base of the statements that are one transition, after which nothing is left of them."""
+
+    may_finish = False
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return False
+
+
+class Perform(Step):
+    """*a*: a primitive action whose precondition holds; its arguments are evaluated now."""
+
+    def __init__(
+        self, span: Span, action: str, args: Callable[[State, Env], Env], possible: Callable[..., bool]
+    ) -> None:
+        super().__init__(span)
+        self.action = action
+        self.args = args
+        self.possible = possible
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        args = self.args(walk.state, node.operands)
+        if self.possible(walk.state, *args):
+            return Act(self.action, args, self.span), walk.machine.program.nil
+        walk.machine.blame(self, "impossible", self.action, args)
+        return None
+
+
+class Test(Step):
+    """*φ?*: go on only if the formula holds now."""
+
+    def __init__(self, span: Span, condition: Evaluate, term: Term) -> None:
+        super().__init__(span)
+        self.condition = condition
+        self.term = term
+        self.label = Silent(span)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        if self.condition(walk.state, node.operands):
+            return self.label, walk.machine.program.nil
+        walk.machine.blame(self, "false", self.term, node.operands)
+        return None
+
+
+class SayRule(Step):
+    """A message; always possible."""
+
+    def __init__(self, span: Span, text: Callable[[State, Env], str]) -> None:
+        super().__init__(span)
+        self.text = text
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        return Say(self.text(walk.state, node.operands), self.span), walk.machine.program.nil
+
+
+class AbortRule(Step):
+    """The end of an online run as failed; a dead end of look-ahead."""
+
+    def __init__(self, span: Span, text: Callable[[State, Env], str]) -> None:
+        super().__init__(span)
+        self.text = text
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        if walk.machine.lookahead:
+            return None
+        return Abort(self.text(walk.state, node.operands), self.span), walk.machine.program.nil
+
+
+class WaitRule(Step):
+    """Online a step that ends with the next exogenous action; a dead end of look-ahead."""
+
+    def __init__(self, span: Span) -> None:
+        super().__init__(span)
+        self.label = Wait(span)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        if walk.machine.lookahead:
+            walk.machine.blame(self, "waits")
+            return None
+        return self.label, walk.machine.program.nil
+
+
+class WaitUntil(Rule):
+    """*while not φ: wait*; in look-ahead *φ?*."""
+
+    def __init__(self, span: Span, condition: Evaluate, term: Term) -> None:
+        super().__init__(span)
+        self.condition = condition
+        self.term = term
+        self.wait = Wait(span)
+        self.test = Silent(span)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        machine = walk.machine
+        holds = self.condition(walk.state, node.operands)
+        if machine.lookahead:
+            if holds:
+                return self.test, machine.program.nil
+            machine.blame(self, "false", self.term, node.operands)
+            return None
+        return None if holds else (self.wait, node)
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return not proof.machine.lookahead and bool(self.condition(proof.state, node.operands))
+
+
+class Block(Rule):
+    """*δ1; δ2* as written: a statement and the block below it."""
+
+    def __init__(self, span: Span, first: Rule, rest: Rule) -> None:
+        super().__init__(span)
+        self.first = first
+        self.rest = rest
+        self.may_finish = first.may_finish and rest.may_finish
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        program = walk.machine.program
+        _push_sequence(walk, program.at(self.first, node.operands), program.at(self.rest, node.operands))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        program = proof.machine.program
+        proof.require_all((program.at(self.first, node.operands), program.at(self.rest, node.operands)))
+        return False
+
+
+class Sequence(Rule):
+    """*δ1; δ2* in which δ1 has begun; the operands are the two."""
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        _push_sequence(walk, *node.operands)
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require_all(node.operands)
+        return False
+
+
+def _push_sequence(walk: Walk, first: Node, rest: Node) -> None:
+    """If δ1 is final, δ2's transitions come first, then δ1's."""
+    walk.push_inside(first, Then(rest, walk.outer))
+    if first.rule.may_finish and walk.machine.final(first, walk.state, walk.entered):
+        walk.push(rest)
+
+
+class If(Rule):
+    """Synchronised: the test and the first step are one transition."""
+
+    def __init__(self, span: Span, condition: Evaluate, then: Rule, otherwise: Rule) -> None:
+        super().__init__(span)
+        self.condition = condition
+        self.then = then
+        self.otherwise = otherwise
+        self.may_finish = then.may_finish or otherwise.may_finish
+
+    def _branch(self, walk: Walk | Proof, node: Node) -> Node:
+        chosen = self.then if self.condition(walk.state, node.operands) else self.otherwise
+        return walk.machine.program.at(chosen, node.operands)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        walk.push(self._branch(walk, node))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require(self._branch(proof, node))
+        return False
+
+
+class While(Rule):
+    """Synchronised: the test and the first step of the body are one transition."""
+
+    def __init__(self, span: Span, condition: Evaluate, body: Rule) -> None:
+        super().__init__(span)
+        self.condition = condition
+        self.body = body
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        if self.condition(walk.state, node.operands):
+            body = walk.machine.program.at(self.body, node.operands)
+            walk.push_inside(body, Then(node, walk.outer))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        if not self.condition(proof.state, node.operands):
+            return True
+        proof.require(proof.machine.program.at(self.body, node.operands))
+        return False
+
+
+class Choose(Rule):
+    """*δ1 | δ2*."""
+
+    def __init__(self, span: Span, branches: tuple[Rule, ...]) -> None:
+        super().__init__(span)
+        self.branches = branches
+        self.may_finish = any(branch.may_finish for branch in branches)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        for branch in reversed(self.branches):
+            walk.push(walk.machine.program.at(branch, node.operands))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require_any([proof.machine.program.at(branch, node.operands) for branch in self.branches])
+        return False
+
+
+class Pick(Rule):
+    """*πx.δ*: a value for which ``where`` holds; the choice and the first step are one transition."""
+
+    def __init__(self, span: Span, environments: Callable[[State, Env], Iterator[Env]], body: Rule) -> None:
+        super().__init__(span)
+        self.environments = environments
+        self.more = Choices(span, body)
+        self.may_finish = body.may_finish
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        walk.push_task(self.more, (self.environments(walk.state, node.operands), False))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        program, body = proof.machine.program, self.more.body
+        proof.require_any([program.at(body, env) for env in self.environments(proof.state, node.operands)])
+        return False
+
+
+class Choices(Rule):
+    """The values of a ``pick`` that are still to be tried: operand (environments, whether one has been tried)."""
+
+    def __init__(self, span: Span, body: Rule) -> None:
+        super().__init__(span)
+        self.body = body
+
+    def trans(self, walk: Walk, node: tuple[Iterator[Env], bool]) -> Found:
+        environments, tried = node
+        env = next(environments, None)
+        if env is not None:
+            walk.push_task(self, (environments, True))
+            walk.push(walk.machine.program.at(self.body, env))
+        elif not tried:
+            walk.machine.blame(self, "no value")
+        return None
+
+
+class Star(Rule):
+    """*δ\\**: stop, or the body once more."""
+
+    def __init__(self, span: Span, body: Rule) -> None:
+        super().__init__(span)
+        self.body = body
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        walk.push_inside(walk.machine.program.at(self.body, node.operands), Then(node, walk.outer))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return True
+
+
+class Let(Rule):
+    """A name for a value, which is evaluated with the first transition of the body."""
+
+    def __init__(self, span: Span, value: Evaluate, body: Rule) -> None:
+        super().__init__(span)
+        self.value = value
+        self.body = body
+        self.may_finish = body.may_finish
+
+    def _inside(self, walk: Walk | Proof, node: Node) -> Node:
+        value = self.value(walk.state, node.operands)
+        return walk.machine.program.at(self.body, (*node.operands, value))
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        walk.push(self._inside(walk, node))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require(self._inside(proof, node))
+        return False
+
+
+class Invoke(Rule):
+    """A procedure call: the transitions of the body, with the arguments as they are now.
+
+    A recursive procedure reached again without a step in between is a step of its own. ``body`` is set when the
+    procedure has been compiled.
+    """
+
+    body: Rule
+
+    def __init__(self, span: Span, procedure: str, args: Callable[[State, Env], Env], recursive: bool) -> None:
+        super().__init__(span)
+        self.procedure = procedure
+        self.args = args
+        self.recursive = recursive
+        self.label = Silent(span)
+
+    def _body(self, walk: Walk | Proof, node: Node) -> Node:
+        return walk.machine.program.at(self.body, self.args(walk.state, node.operands))
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        if self.recursive:
+            if self.procedure in walk.entered:
+                return self.label, self._body(walk, node)
+            walk.entered = walk.entered | {self.procedure}
+        walk.push(self._body(walk, node))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        if self.recursive:
+            if self.procedure in proof.entered:
+                return False
+            proof.entered = proof.entered | {self.procedure}
+        proof.require(self._body(proof, node))
+        return False
+
+
+class Together(Rule):
+    """*δ1 ∥ δ2*: interleaved concurrency; the operands are the branches that are not over."""
+
+    prioritised = False
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        for index in reversed(range(len(node.operands))):
+            walk.push_inside(node.operands[index], Branch(node, index, None, walk.outer))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require_all(node.operands)
+        return False
+
+
+class Prefer(Rule):
+    """*δ1 ⟩⟩ δ2*: the lower part only if the higher one has no transition; the operands are the parts in order."""
+
+    def __init__(self, span: Span) -> None:
+        super().__init__(span)
+        self.lower = Lower(span)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        return self.lower.trans(walk, (node, 0, None))
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require_all(node.operands)
+        return False
+
+
+class Lower(Rule):
+    """A part of a ``prefer``, if the part above it has had no transition."""
+
+    def trans(self, walk: Walk, node: tuple[Node, int, Token | None]) -> Found:
+        whole, index, above = node
+        if above is not None and above.used:
+            return None
+        token = Token()
+        if index + 1 < len(whole.operands):
+            walk.push_task(self, (whole, index + 1, token))
+        walk.push_inside(whole.operands[index], Branch(whole, index, token, walk.outer))
+        return None
+
+
+class Branching(Rule):
+    """``together`` or ``prefer`` as written: its parts with the same environment, under the rule of the begun form."""
+
+    def __init__(self, span: Span, begun: Rule, branches: tuple[Rule, ...]) -> None:
+        super().__init__(span)
+        self.begun = begun
+        self.branches = branches
+        self.may_finish = all(branch.may_finish for branch in branches)
+
+    def _begin(self, walk: Walk | Proof, node: Node) -> Node:
+        program = walk.machine.program
+        return program.node(self.begun, tuple(program.at(branch, node.operands) for branch in self.branches))
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        walk.push(self._begin(walk, node))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require(self._begin(proof, node))
+        return False
+
+
+class On:
+    """One interrupt: the environments for which its condition holds, and its body."""
+
+    __slots__ = ("body", "environments", "span", "term")
+
+    def __init__(self, span: Span, environments: Callable[[State, Env], Iterator[Env]], term: Term, body: Rule) -> None:
+        self.span = span
+        self.environments = environments
+        self.term = term
+        self.body = body
+
+
+class Interrupts(Rule):
+    """*⟨φ → δ⟩* in order of priority, none of them active."""
+
+    def __init__(self, span: Span, handlers: tuple[On, ...]) -> None:
+        super().__init__(span)
+        self.handlers = handlers
+        self.idle: tuple[Node | None, ...] = (None,) * len(handlers)
+        self.active = Active(span, self)
+        self.attempt = Attempt(self)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        return self.attempt.trans(walk, (node.operands, self.idle, 0, Token()))
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return next(proof.machine.transitions(node, proof.state), None) is None
+
+
+class Active(Rule):
+    """Interrupts of which some are active: operands environment and, for each interrupt, its residual body or none."""
+
+    def __init__(self, span: Span, interrupts: Interrupts) -> None:
+        super().__init__(span)
+        self.interrupts = interrupts
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        env, bodies = node.operands
+        return self.interrupts.attempt.trans(walk, (env, bodies, 0, Token()))
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        """The active bodies are final and nothing can step."""
+        machine, state = proof.machine, proof.state
+        return (
+            all(machine.final(body, state) for body in node.operands[1] if body is not None)
+            and next(machine.transitions(node, state), None) is None
+        )
+
+
+class Attempt(Rule):
+    """The interrupts from one on, if none above has had a transition: operand (env, bodies, index, token)."""
+
+    def __init__(self, interrupts: Interrupts) -> None:
+        super().__init__(interrupts.span)
+        self.interrupts = interrupts
+        self.fire = Fire(self)
+
+    def trans(self, walk: Walk, node: tuple[Env, tuple[Node | None, ...], int, Token]) -> Found:
+        env, bodies, index, token = node
+        if token.used:
+            return None
+        if index + 1 < len(bodies):
+            walk.push_task(self, (env, bodies, index + 1, token))
+        body = bodies[index]
+        if body is None:
+            return self.fire.trans(walk, (node, None))
+        if walk.machine.final(body, walk.state):
+            walk.push_task(self.fire, (node, None))
+        walk.push_inside(body, Handler(self.interrupts, env, bodies, index, token, walk.outer))
+        return None
+
+
+class Fire(Rule):
+    """An interrupt that is not active, or whose body is final: the first binding whose body can step."""
+
+    def __init__(self, attempt: Attempt) -> None:
+        super().__init__(attempt.span)
+        self.attempt = attempt
+
+    def trans(self, walk: Walk, node: tuple[Any, Iterator[Env] | None]) -> Found:
+        (env, bodies, index, token), environments = node
+        if token.used:
+            return None
+        handler = self.attempt.interrupts.handlers[index]
+        if environments is None:
+            environments = handler.environments(walk.state, env)
+        inner = next(environments, None)
+        if inner is None:
+            walk.machine.blame(self, "no interrupt", handler, env)
+            return None
+        walk.push_task(self, (node[0], environments))
+        body = walk.machine.program.at(handler.body, inner)
+        walk.push_inside(body, Handler(self.attempt.interrupts, env, bodies, index, token, walk.outer))
+        return None
+
+
+class Search(Rule):
+    """*Σ(δ)*: online, the first step of a way to the end of the block; look-ahead sees through it."""
+
+    def __init__(self, span: Span, body: Rule) -> None:
+        super().__init__(span)
+        self.body = body
+        self.may_finish = body.may_finish
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        body = walk.machine.program.at(self.body, node.operands)
+        if walk.machine.lookahead:
+            walk.push(body)
+            return None
+        return walk.machine.begin_search(self, body, walk.state)
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        body = proof.machine.program.at(self.body, node.operands)
+        return proof.machine.ahead.final(body, proof.state, proof.entered)
+
+
+class Following(Rule):
+    """*Σ(δ)* that has begun: the operands are the path that was found and how far it has been followed."""
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        path, index = node.operands
+        if walk.machine.lookahead:
+            walk.push(path.programs[index])
+            return None
+        return walk.machine.follow(self, path, index, walk.state)
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        path, index = node.operands
+        return proof.machine.ahead.final(path.programs[index], proof.state, proof.entered)

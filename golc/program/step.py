@@ -1,0 +1,135 @@
+"""*Trans* and *Final* over (program, state), as the online loop and the planner ask for them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Protocol
+
+from golc.program.blame import Blamed, Blocked, explain
+from golc.program.labels import Act, Label, Transition, Wait
+from golc.program.nodes import Node
+from golc.program.program import Program
+from golc.program.rules import Found, Rule
+from golc.program.walks import NONE_ENTERED, Entered, Proof, Walk
+from golc.situation.dynamics import Dynamics
+from golc.situation.layout import State
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """A way to the end of a program: ``programs`` and ``states`` have one element more than ``labels``."""
+
+    programs: tuple[Node, ...]
+    labels: tuple[Label, ...]
+    states: tuple[State, ...]
+
+
+class Planner(Protocol):
+    """Finds a way from a program and a state to a final program, with at least one step."""
+
+    def __call__(self, machine: Machine, node: Node, state: State) -> Path | None: ...
+
+
+class Machine:
+    """Answers what a program can do in a state.
+
+    There are two of them for a program: one for what happens online, and ``ahead`` for look-ahead, in which time stands
+    still: ``wait`` is a dead end, ``wait until φ`` a test, ``search`` is seen through.
+    """
+
+    def __init__(self, dynamics: Dynamics, program: Program, planner: Planner, ahead: Machine | None = None) -> None:
+        self.dynamics = dynamics
+        self.program = program
+        self.lookahead = ahead is None
+        self.ahead: Machine = ahead or self
+        self._planner = planner
+        self._paths: dict[tuple[Node, State], Path | None] = {}
+        self._blamed: list[Blamed] | None = None
+
+    def transitions(self, node: Node, state: State) -> Iterator[Transition]:
+        """The transitions in program order, each computed when it is asked for."""
+        return iter(Walk(self, state, node))
+
+    def final(self, node: Node, state: State, entered: Entered = NONE_ENTERED) -> bool:
+        """Whether the program may end in this state."""
+        return node.rule.may_finish and Proof(self, state, node, entered).succeeds()
+
+    def decide(self, node: Node, state: State) -> Transition | None:
+        """The transition that the online loop takes: a test step if there is one, otherwise the first action step,
+        otherwise a wait; none if the program is blocked."""
+        action = wait = None
+        for transition in self.transitions(node, state):
+            label = transition.label
+            if isinstance(label, Act):
+                action = action or transition
+            elif isinstance(label, Wait):
+                wait = wait or transition
+            else:
+                return transition
+        return action or wait
+
+    def successor(self, state: State, label: Label) -> State:
+        """The state after a transition, without what sensing or the world might add."""
+        if isinstance(label, Act):
+            return self.dynamics.progress(state, label.action, label.args)
+        return state
+
+    def why_blocked(self, node: Node, state: State) -> list[Blocked]:
+        """Each branch that cannot go on, in program order: where, which condition failed, and the values it had."""
+        self._blamed = []
+        try:
+            for _ in self.transitions(node, state):
+                pass
+            return [explain(self.dynamics, state, blamed) for blamed in self._blamed]
+        finally:
+            self._blamed = None
+
+    def blame(self, rule: Rule, reason: str, *details: object) -> None:
+        """A rule reports why it has no transition; kept only while somebody wants to know."""
+        if self._blamed is not None:
+            self._blamed.append(Blamed(rule, reason, details))
+
+    def begin_search(self, rule: Rule, body: Node, state: State) -> Found:
+        """The first step of a way to the end of a ``search`` block."""
+        return self._step(rule, self._path(body, state), 0)
+
+    def follow(self, rule: Rule, path: Path, index: int, state: State) -> Found:
+        """The next step of a path, which is replayed, or the rest searched anew, if the state is not as expected."""
+        current: Path | None = path
+        if path.states[index] != state:
+            current, index = self._replayed(path, index, state) or self._path(path.programs[index], state), 0
+        if current is not None and index == len(current.labels):
+            current, index = self._path(current.programs[-1], state), 0
+        return self._step(rule, current, index)
+
+    def _step(self, rule: Rule, path: Path | None, index: int) -> Found:
+        if path is None:
+            self.blame(rule, "no way")
+            return None
+        return path.labels[index], self.program.node(self.program.following, (path, index + 1))
+
+    def _replayed(self, path: Path, index: int, state: State) -> Path | None:
+        """The rest of a path by the same choices from another state, if they still lead to the end."""
+        labels: list[Label] = []
+        states = [state]
+        for node, residual in pairwise(path.programs[index:]):
+            label = next((label for label, to in self.ahead.transitions(node, state) if to is residual), None)
+            if label != path.labels[index + len(labels)] or label is None:
+                return None
+            state = self.successor(state, label)
+            labels.append(label)
+            states.append(state)
+        if not self.ahead.final(path.programs[-1], state):
+            return None
+        return Path(path.programs[index:], tuple(labels), tuple(states))
+
+    def _path(self, node: Node, state: State) -> Path | None:
+        """What the planner finds; remembered, for a blocked program is asked again and again in the same state."""
+        key = (node, state)
+        if key not in self._paths:
+            if len(self._paths) >= 64:
+                self._paths.pop(next(iter(self._paths)))
+            self._paths[key] = self._planner(self.ahead, node, state)
+        return self._paths[key]
