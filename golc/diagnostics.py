@@ -127,6 +127,9 @@ class Code(Enum):
     BLOCKED = ("GL108", "the program is blocked and nothing can unblock it")
     EVENTS = ("GL110", "a line of an events file cannot be understood")
     EVENT = ("GL111", "an action is written that cannot be reported or performed so")
+    IMPOSSIBLE_EVENT = ("GL112", "an exogenous action has occurred that the theory thinks impossible")
+    ABORTED = ("GL113", "the program has ended itself as failed")
+    WAITS_FOR_EVER = ("GL114", "the program waits and nothing can happen any more")
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
-from golc.syntax.parse import parse_expression
-
 from golc.diagnostics import NOWHERE, Code, Diagnostic, Findings, Source, Span
 from golc.syntax import tree
+from golc.syntax.parse import parse_expression
 from golc.theory.suggest import closest
 from golc.theory.theory import Action, BasicActionTheory, Parameter
 from golc.theory.types import Enumeration, Interval, Optional, Type, Value, show_call

@@ -12,6 +12,7 @@ from enum import Enum
 from typing import TypeAlias
 
 from golc.diagnostics import DeviceError, Diagnostic, Span
+from golc.program.blame import Blocked as Why
 from golc.situation.dynamics import Surprise
 from golc.situation.layout import State
 from golc.theory.types import Value
@@ -139,19 +140,10 @@ class Waiting(Happening):
 
 
 @dataclass(frozen=True, slots=True)
-class Reason:
-    """Why one branch cannot go on: the condition, its place, and the values that it had."""
-
-    span: Span
-    text: str
-    values: tuple[tuple[str, Value], ...]
-
-
-@dataclass(frozen=True, slots=True)
 class Blocked(Happening):
     """No transition and not final; ``sources`` might still report something that helps."""
 
-    reasons: tuple[Reason, ...]
+    reasons: tuple[Why, ...]
     sources: tuple[str, ...]
 
 

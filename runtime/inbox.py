@@ -81,21 +81,29 @@ class Source(Protocol):
         """Whether it is allowed and able to report this exogenous action."""
         ...
 
+    def start(self) -> None:
+        """Begin to report."""
+        ...
+
+    def close(self) -> None:
+        """Report nothing more."""
+        ...
+
 
 class Inbox:
     """A queue whose reader may look without cost, and wait."""
 
     def __init__(self) -> None:
         self.items: deque[Item] = deque()
-        self.on_urgent: Callable[[], None] = lambda: None
+        self.at_once: Callable[[Command], bool] = lambda command: False
         self._arrived = threading.Event()
 
     def put(self, item: Item) -> None:
-        """Add an item; a command that must not wait for the action under way also calls ``on_urgent`` at once."""
+        """Add an item, or have the command dealt with at once if the loop is busy with something that takes long."""
+        if isinstance(item, Command) and self.at_once(item):
+            return
         self.items.append(item)
         self._arrived.set()
-        if isinstance(item, Command) and item.name in ("abort", "stop"):
-            self.on_urgent()
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until there is an item, at most for some seconds; whether there is one."""

@@ -18,7 +18,7 @@ from golc.theory.theory import Action, BasicActionTheory
 class Listener:
     """Accepts any number of clients; their lines go to the inbox in order of arrival.
 
-    ``ok`` says that the line was understood and put into the queue; a command's answer follows as JSON on the same line.
+    ``ok`` says that the line was understood and is in the queue; a command's answer follows as JSON on the same line.
     """
 
     def __init__(self, theory: BasicActionTheory, inbox: Inbox, host: str, port: int) -> None:

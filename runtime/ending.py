@@ -1,0 +1,50 @@
+"""How a run ends: the devices are told to stop first, whatever the reason."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+from golc.diagnostics import Code, DeviceError, GolcError, ProgramError
+from golc.runtime.devices.base import Device
+from golc.runtime.happenings import End
+from golc.runtime.inbox import Source
+
+
+def verdict_on(error: BaseException) -> tuple[End, str]:
+    """Why a run that raised this has ended, and in which words."""
+    match error:
+        case ProgramError(diagnostic=diagnostic) if diagnostic.code is Code.ABORTED:
+            return End.ABORTED, diagnostic.message
+        case ProgramError(diagnostic=diagnostic):
+            return End.FAILED, diagnostic.message
+        case DeviceError():
+            return End.DEVICE, str(error)
+        case GolcError():
+            return End.FAILED, str(error)
+        case KeyboardInterrupt():
+            return End.INTERRUPTED, str(error) or "interrupted"
+        case BrokenPipeError():
+            return End.INTERRUPTED, "nobody reads the output any more"
+        case _:
+            return End.BUG, f"{type(error).__name__}: {error}"
+
+
+def release(sources: Sequence[Source], devices: Sequence[Device]) -> tuple[tuple[str, str], ...]:
+    """Silence the sources, tell every device to stop, and let go of it; the names of those that could not be told."""
+    for source in sources:
+        _attempt(source.close)
+    unstopped = []
+    for device in devices:
+        if (failure := _attempt(device.abort)) is not None:
+            unstopped.append((device.name, failure))
+        _attempt(device.close)
+    return tuple(unstopped)
+
+
+def _attempt(action: Callable[[], None]) -> str | None:
+    """Do something whose failure must not keep the rest from being done; what went wrong."""
+    try:
+        action()
+    except Exception as error:
+        return str(error) or type(error).__name__
+    return None

@@ -1,0 +1,304 @@
+"""The online loop of Legolog (Levesque & Pagnucco 2000, section 4): hear the world, decide, act, and never go back.
+
+In each round: (1) every exogenous action that has occurred is taken in, in order of arrival; (2) if the program is
+final the run has succeeded; (3) a test step is taken if there is one; (4) otherwise the run commits to the first
+possible action, has a device do it, and applies its effects and sensing results when the device reports success; (5)
+otherwise it waits, if the program says so. A program without a transition is blocked: it fails, unless a source is open
+that might report something that helps.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+
+from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
+from golc.program.blame import Blocked as Why
+from golc.program.labels import Abort, Act, Say, Silent, Transition, Wait
+from golc.program.nodes import Node
+from golc.program.step import Machine
+from golc.runtime.clock import Clock
+from golc.runtime.devices.base import Args, Device, Router
+from golc.runtime.ending import release, verdict_on
+from golc.runtime.happenings import (
+    Begun,
+    Blocked,
+    Done,
+    End,
+    Ended,
+    Failed,
+    Remedied,
+    Remedy,
+    Said,
+    Started,
+    Tested,
+    Waiting,
+)
+from golc.runtime.inbox import Inbox, Source
+from golc.runtime.intake import Intake
+from golc.runtime.policy import Policy
+from golc.situation.dynamics import Surprise
+from golc.situation.layout import State
+from golc.theory.types import show
+
+CIRCLES = 100_000
+"""Steps in a row without an action or an event after which a program is said to run in circles."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """How a run ended that did not fail, with the state it reached."""
+
+    end: End
+    message: str
+    state: State
+    actions: int
+    exogenous: int
+
+
+class Executive(Intake):
+    """One online run of a program."""
+
+    def __init__(
+        self,
+        machine: Machine,
+        router: Router,
+        inbox: Inbox,
+        sources: Sequence[Source] = (),
+        policy: Policy | None = None,
+        clock: Clock | None = None,
+    ) -> None:
+        super().__init__(machine, inbox, router.devices, policy or Policy(), clock)
+        self._router = router
+        self._sources = tuple(sources)
+        self._failed: set[tuple[str, Args]] = set()
+        """The actions that have failed and are not to be tried again before something changes."""
+        self._last_failure: DeviceError | None = None
+
+    def run(self, procedure: str = "control", args: Args = ()) -> Outcome:
+        """Execute a procedure to its end; the devices are told to stop whatever happens.
+
+        Raises ``ProgramError`` if the program fails and ``DeviceError`` if the world does.
+        """
+        opened: list[Device] = []
+        try:
+            node = self.machine.start(procedure, args)
+            for device in self._devices:
+                device.open()
+                opened.append(device)
+            self.tell(Started(self.clock.now(), procedure, args, self.state))
+            for source in self._sources:
+                source.start()
+            end, message = self._loop(node)
+        except BaseException as error:
+            self._finish(opened, *verdict_on(error))
+            raise
+        self._finish(opened, end, message)
+        return Outcome(end, message, self.state, self.actions, self.exogenous)
+
+    def _finish(self, opened: Sequence[Device], end: End, message: str) -> None:
+        """Stop everything, then tell; an observer that fails now can keep nobody from being told."""
+        self._engaged = None
+        unstopped = release(self._sources, opened)
+        ended = Ended(self.clock.now(), end, message, self.state, self.actions, self.exogenous, unstopped)
+        for observer in self.observers:
+            with suppress(OSError, DeviceError):
+                observer(ended)
+
+    def _loop(self, node: Node) -> tuple[End, str]:
+        items, final = self._inbox.items, self.machine.final
+        quiet = 0
+        while True:
+            if items and self.take_in():
+                quiet = 0
+                self._failed.clear()
+            if self._verdict is not None:
+                return self._verdict
+            if final(node, self.state):
+                return End.FINAL, "the program is final"
+            choice = self._decide(node)
+            if choice is None:
+                self._stay_blocked(node)
+                continue
+            label, residual = choice
+            if isinstance(label, Act):
+                if not self._commit(label):
+                    continue
+                quiet = 0
+            elif isinstance(label, Wait):
+                self._wait(label)
+                quiet = 0
+            else:
+                quiet += 1
+                self._step(label, quiet)
+            node = residual
+
+    def _decide(self, node: Node) -> Transition | None:
+        """The transition to take: what the machine says, without the actions that are not to be tried again."""
+        if not self._failed:
+            return self.machine.decide(node, self.state)
+        wait = None
+        for transition in self.machine.transitions(node, self.state):
+            label = transition.label
+            if isinstance(label, Wait):
+                wait = wait or transition
+            elif not isinstance(label, Act) or (label.action, label.args) not in self._failed:
+                return transition
+        return wait
+
+    def _step(self, label: Silent | Say | Abort, quiet: int) -> None:
+        """A step without an action."""
+        self._failed.clear()
+        match label:
+            case Say(text=text, span=span) if self.observers:
+                self.tell(Said(self.clock.now(), text, span))
+            case Silent(span=span) if self.observers:
+                self.tell(Tested(self.clock.now(), span))
+            case Abort(text=text, span=span):
+                raise ProgramError(Diagnostic(Code.ABORTED, text or "the program aborts", span))
+        if quiet >= CIRCLES:
+            message = f"the program runs in circles: {CIRCLES} steps without an action or an event"
+            raise ProgramError(Diagnostic(Code.RUNS_IN_CIRCLES, message, label.span, help="let it `wait` for an event"))
+
+    def _commit(self, label: Act) -> bool:
+        """Have a device do an action and apply its effects; False if it was not done, or is to be decided anew."""
+        if self._policy.confirm is not None and not self._confirmed(label, self._policy.confirm):
+            return False
+        device = self._router.device(label.action, label.args)
+        began = self._begin(label, device)
+        self._engaged = device.interrupt
+        try:
+            results = device.perform(label.action, label.args)
+        except DeviceError as error:
+            self._engaged = None
+            self._cope(label, error)
+            return False
+        self._engaged = None
+        self._apply(label, results, began)
+        return True
+
+    def _begin(self, label: Act, device: Device) -> float:
+        """Tell that an action begins; when that was, if anybody listens."""
+        if not self.observers:
+            return 0.0
+        began = self.clock.now()
+        self.tell(Begun(began, label.action, label.args, device.label(label.action, label.args), label.span))
+        return began
+
+    def _apply(self, label: Act, results: Args, began: float) -> None:
+        """The effects of an action that was done, then its sensing results."""
+        action, args, before = label.action, label.args, self.state
+        after = self.dynamics.progress(before, action, args)
+        surprises: Sequence[Surprise] = ()
+        if results:
+            after, surprises = self.dynamics.assimilate(after, action, args, results)
+        self.state = after
+        self.actions += 1
+        self.history.append(label)
+        self._failed.clear()
+        if self.observers:
+            now = self.clock.now()
+            self.tell(Done(now, action, args, results, now - began, before, after, tuple(surprises)))
+
+    def _confirmed(self, label: Act, confirm: Callable[[Act], None]) -> bool:
+        """Ask whether an action may begin; False if something has happened meanwhile."""
+        with self._engaging(self._policy.interrupt):
+            confirm(label)
+        return not self._inbox.items
+
+    def _cope(self, label: Act, error: DeviceError) -> None:
+        """An action failed: what has happened meanwhile comes first, then what is to be done about it."""
+        self.tell(Failed(self.clock.now(), label.action, label.args, error))
+        self.take_in()
+        if self._verdict is not None:
+            return
+        with self._engaging(self._policy.interrupt):
+            remedy = self._policy.on_failure(label, error)
+        self.tell(Remedied(self.clock.now(), label.action, label.args, remedy))
+        match remedy:
+            case Remedy.STOP:
+                raise error
+            case Remedy.NEXT:
+                self._failed.add((label.action, label.args))
+                self._last_failure = error
+            case Remedy.RETRY:
+                self._inbox.wait(self._policy.retry_after)
+
+    @contextmanager
+    def _engaging(self, interrupt: Callable[[], None]) -> Iterator[None]:
+        """While the loop is engaged in something that ``interrupt`` can end."""
+        self._engaged = interrupt
+        try:
+            yield
+        finally:
+            self._engaged = None
+
+    def _wait(self, label: Wait) -> None:
+        """Let time pass until an exogenous action has been taken in, or the run is to end."""
+        if self.observers:
+            self.tell(Waiting(self.clock.now(), label.span))
+        if self._until_event() or self._verdict is not None:
+            return
+        idle = self._policy.stop_when_idle
+        if idle is None:
+            message = "the program waits, and nothing can happen any more: no source of exogenous actions is open"
+            help_ = "`--stop-when-idle 0` ends such a run with success"
+            raise ProgramError(Diagnostic(Code.WAITS_FOR_EVER, message, label.span, help=help_))
+        self._verdict = End.IDLE, f"idle: the program waits at {label.span.source.name}:{label.span.line}"
+
+    def _stay_blocked(self, node: Node) -> None:
+        """Nothing can be done: wait for an event, if one can come."""
+        if self.observers and self._open():
+            reasons = tuple(self.machine.why_blocked(node, self.state))
+            self.tell(Blocked(self.clock.now(), reasons, self._open()))
+        if self._until_event():
+            self._failed.clear()
+        elif self._verdict is None:
+            raise self._why(node)
+
+    def _until_event(self) -> bool:
+        """Take in what comes until an exogenous action was applied.
+
+        False if none can come or none came in time, or if the operator ended the run, which is then the verdict.
+        """
+        idle = self._policy.stop_when_idle
+        deadline = None if idle is None else time.monotonic() + idle
+        items = self._inbox.items
+        while self._verdict is None:
+            if items:
+                if self.take_in():
+                    return True
+            elif (not self._open() and not items) or not self._inbox.wait(
+                None if deadline is None else max(0.0, deadline - time.monotonic())
+            ):
+                return False
+        return False
+
+    def _open(self) -> tuple[str, ...]:
+        """The sources that have not ended and may report an exogenous action of this domain."""
+        events = [action for action in self.dynamics.theory.actions.values() if action.exogenous]
+        return tuple(
+            source.name for source in self._sources if not source.ended and any(map(source.may_report, events))
+        )
+
+    def _why(self, node: Node) -> Exception:
+        """The error of a program that is blocked for good: each branch with its condition and the values it had."""
+        if self._failed and self._last_failure is not None:
+            return self._last_failure
+        branches = self.machine.why_blocked(node, self.state)
+        span = branches[0].span if branches else node.rule.span
+        labels = tuple(Label(branch.span, _blame(branch)) for branch in branches)
+        open_ = self._open()
+        message = "the program is blocked" + ("" if open_ else ", and no source is open that could report anything")
+        return ProgramError(Diagnostic(Code.BLOCKED, message, span, labels=labels))
+
+
+def _left(deadline: float | None) -> float | None:
+    return None if deadline is None else max(0.0, deadline - time.monotonic())
+
+
+def _blame(branch: Why) -> str:
+    values = ", ".join(f"{name} = {show(value)}" for name, value in branch.values)
+    return branch.text + (f" ({values})" if values else "")
