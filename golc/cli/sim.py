@@ -44,14 +44,14 @@ def _address(context: click.Context, parameter: click.Parameter, value: str | No
     type=click.FloatRange(0.01, 1000),
     default=1.0,
     show_default=True,
-    help="How fast the robot's world goes.",
+    help="How many simulated seconds pass in one; give the host the same.",
 )
 @click.option(
     "--air-time",
     type=click.FloatRange(0, 10),
     default=1.0,
     show_default=True,
-    help="Factor on the air time of 2400 baud, which --speed divides too; 0: messages take no time.",
+    help="Factor on the air time of 2400 baud; 0: messages take no time.",
 )
 @click.option("--loss", type=click.FloatRange(0, 1), default=0.0, metavar="P", help="Chance that a message is lost.")
 @click.option("--garble", type=click.FloatRange(0, 1), default=0.0, metavar="P", help="Chance that it is damaged.")
@@ -99,26 +99,24 @@ def command(
     from golc.loading import load
     from golc.runtime.rcxsim.line import TOWER_SLEEPS_AFTER, LineOptions
     from golc.runtime.rcxsim.serve import serve, stopped_by_signals
-    from golc.runtime.rcxsim.simulator import SimulatorOptions, build
+    from golc.runtime.rcxsim.simulator import build
     from golc.runtime.rcxsim.trace import Trace, to_file
     from golc.runtime.schedule import read_schedule
 
     theory = load(file, constants)
     schedule = None if events is None else read_schedule(events, theory)
-    options = SimulatorOptions(
-        LineOptions(air_time / speed, loss, garble, echo, TOWER_SLEEPS_AFTER if sleep else None), speed, seed
-    )
+    options = LineOptions(air_time, loss, garble, echo, TOWER_SLEEPS_AFTER if sleep else None)
     with contextlib.ExitStack() as stack:
         readers = [_teller(console)]
         if trace is not None:
             readers.append(to_file(stack.enter_context(_opened(trace))))
-        line = build(theory, options, schedule, Trace(*readers))
+        line = build(theory, options, schedule, seed, Trace(*readers))
         stops = [stack.enter_context(stopped_by_signals())]
         if until_stdin_closes:
             stops.append(sys.stdin.fileno())
         port = stack.enter_context(contextlib.closing(_port(link, tcp)))
         console.out(port.description)
-        serve(line, port, stops)
+        serve(line, port, stops, speed)
 
 
 def _port(link: Path | None, tcp: tuple[str, int] | None) -> Port:

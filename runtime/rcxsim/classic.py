@@ -150,8 +150,9 @@ class ClassicProgram:
         before, at = self._last
         if message != before or message == self._wire.request:
             return False
-        waiting = self._phase in (Phase.RUNNING, Phase.ASKING) and message != self._wire.proceed
-        return waiting or now - at >= REPEAT_AFTER
+        if self._phase in (Phase.RUNNING, Phase.ASKING):
+            return message != self._wire.proceed  # which grants time, however often it comes
+        return now - at >= REPEAT_AFTER
 
     def _take(self, message: int, now: float) -> Sequence[int]:
         if message == self._wire.request:
@@ -193,7 +194,7 @@ class ClassicProgram:
         return answer
 
     def _go_on(self, now: float) -> Sequence[int]:
-        if self._phase is Phase.ASKING and self._behaviours.busy():
+        if self._phase in (Phase.RUNNING, Phase.ASKING) and self._behaviours.busy():
             self._phase = Phase.RUNNING
             self._deadline = now + MORE_TIME_AFTER
             return ()

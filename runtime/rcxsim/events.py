@@ -1,6 +1,6 @@
 """What happens around the brick by itself: by a script, or by chance in the way of a plausible robot.
 
-Times are in seconds of the simulated world; the caller has the clock. A source starts when the host is first heard.
+The caller has the clock, in seconds. Time begins when the host is first heard.
 """
 
 from __future__ import annotations
@@ -18,6 +18,8 @@ from golc.situation.layout import State
 
 Event = tuple[str, Args]
 """An exogenous action and its arguments."""
+ROUNDING = 1e-9
+"""What adding the start to a time and taking it away again may lose."""
 
 
 class Events(Protocol):
@@ -69,7 +71,7 @@ class Scripted:
     def take(self, now: float) -> list[Event]:
         if self._start is None:
             return []
-        return [(call.action, call.args) for call in self._player.due(now - self._start)]
+        return [(call.action, call.args) for call in self._player.due(now - self._start + ROUNDING)]
 
 
 TASK_TAKES = (1.5, 4.0)

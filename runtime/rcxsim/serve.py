@@ -16,18 +16,21 @@ from golc.runtime.rcxsim.ports import Port
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-def serve(line: Line, port: Port, stops: Collection[int]) -> None:
-    """Carry bytes between port and line until one of the descriptors in ``stops`` is readable or at its end."""
+def serve(line: Line, port: Port, stops: Collection[int], speed: float) -> None:
+    """Carry bytes between port and line until one of the descriptors in ``stops`` is readable or at its end.
+
+    ``speed``: how many of the line's seconds pass in one.
+    """
     start = time.monotonic()
     while True:
         due = line.due()
-        left = None if due is None else max(0.0, due - (time.monotonic() - start))
+        left = None if due is None else max(0.0, due / speed - (time.monotonic() - start))
         watched = port.watched()
         ready = select.select([*stops, *watched], [], [], left)[0]
         if any(descriptor in stops for descriptor in ready):
             return
         data = b"".join(port.read(descriptor) for descriptor in watched if descriptor in ready)
-        received = line.host_sent(data, time.monotonic() - start)
+        received = line.host_sent(data, (time.monotonic() - start) * speed)
         if received:
             port.write(received)
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-from dataclasses import dataclass, field
 
 from golc.diagnostics import Code, Findings, Span, UserError
 from golc.nqc.numbering import ActionMap, number_device
@@ -17,34 +16,25 @@ from golc.runtime.schedule import Player, Schedule
 from golc.theory.theory import BasicActionTheory
 
 
-@dataclass(frozen=True)
-class SimulatorOptions:
-    """``speed``: seconds of the world in one second of the line; ``seed``: of everything that is left to chance."""
-
-    line: LineOptions = field(default_factory=LineOptions)
-    speed: float = 1.0
-    seed: int = 0
-
-
-def build(theory: BasicActionTheory, options: SimulatorOptions, schedule: Schedule | None, trace: Trace) -> Line:
+def build(theory: BasicActionTheory, options: LineOptions, schedule: Schedule | None, seed: int, trace: Trace) -> Line:
     """The line with every brick of the theory, in its initial state; without a schedule events come by chance.
 
-    Raises UserError if the theory declares no brick, or if the numbers of one cannot be told apart. What is left to
-    chance is drawn from a stream of its own for each purpose, so that more noise does not change what the robot does.
+    Raises UserError if the theory declares no brick, or if the numbers of one cannot be told apart. ``seed`` decides
+    what is left to chance, in a stream for each purpose: more noise does not change how long actions take.
     """
-    world = World(theory, _stream(options, "world"), trace)
+    world = World(theory, _stream(seed, "world"), trace)
     programs = []
     for numbers in bricks(theory):
         name = numbers.device.name
         events: Events
         if schedule is None:
-            events = Chance(world, numbers, _stream(options, f"events of {name}"))
+            events = Chance(world, numbers, _stream(seed, f"events of {name}"))
         else:
             events = Scripted(Player(_reported_by(numbers, schedule)))
-        durations = _stream(options, f"durations of {name}")
-        brick = TheoryBrick(world, numbers, events, durations, options.speed, trace)
+        durations = _stream(seed, f"durations of {name}")
+        brick = TheoryBrick(world, numbers, events, durations, trace)
         programs.append(ClassicProgram(brick, numbers.wire, trace))
-    return Line(programs, options.line, _stream(options, "noise"), trace)
+    return Line(programs, options, _stream(seed, "noise"), trace)
 
 
 def bricks(theory: BasicActionTheory) -> list[ActionMap]:
@@ -68,5 +58,5 @@ def _reported_by(numbers: ActionMap, schedule: Schedule) -> Schedule:
     return schedule.only(lambda call: numbers.handles(call.action, call.args))
 
 
-def _stream(options: SimulatorOptions, purpose: str) -> random.Random:
-    return random.Random(f"{options.seed}: {purpose}")
+def _stream(seed: int, purpose: str) -> random.Random:
+    return random.Random(f"{seed}: {purpose}")

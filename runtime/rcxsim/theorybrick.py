@@ -22,8 +22,6 @@ SLOW = (3.5, 6.0)
 SLOW_CHANCE = 0.08
 OF_TIMEOUT = 0.8
 """No behaviour takes more than this part of the time that its binding grants."""
-ROUNDING = 1e-6
-"""What the change from the line's seconds to the world's and back may lose."""
 
 
 @dataclass(frozen=True)
@@ -34,19 +32,15 @@ class _Running:
 
 
 class TheoryBrick:
-    """What the control program steers on a brick whose world is the theory.
-
-    Times are the line's; ``speed`` is how many seconds pass in the world in one of them.
-    """
+    """What the control program steers on a brick whose world is the theory."""
 
     def __init__(
-        self, world: World, numbers: ActionMap, events: Events, durations: random.Random, speed: float, trace: Trace
+        self, world: World, numbers: ActionMap, events: Events, durations: random.Random, trace: Trace
     ) -> None:
         self._world = world
         self._numbers = numbers
         self._events = events
         self._durations = durations
-        self._speed = speed
         self._trace = trace
         self._running: _Running | None = None
         self._value = 0
@@ -55,7 +49,7 @@ class TheoryBrick:
     def begin(self, number: int, now: float) -> None:
         self._running = None
         self._value = 0
-        self._events.heard(now * self._speed)
+        self._events.heard(now)
         decoded = self._numbers.decode(number)
         entry = None if decoded is None else self._numbers.entry(*decoded)
         if decoded is None or entry is None or entry.exogenous:
@@ -63,11 +57,11 @@ class TheoryBrick:
             return
         action, args = decoded
         self._trace.tell(now, "began", action=show_call(action, args), number=number)
-        self._events.began(action, args, now * self._speed)
+        self._events.began(action, args, now)
         if isinstance(entry.behaviour, ByStart):
             self._finish(entry, args, now)
         else:
-            self._running = _Running(entry, args, now + self._duration(entry) / self._speed)
+            self._running = _Running(entry, args, now + self._duration(entry))
 
     def busy(self) -> bool:
         return self._running is not None
@@ -82,10 +76,10 @@ class TheoryBrick:
         if self._queue:
             self._trace.tell(now, "forgot", events=[show_call(*event) for _, event in self._queue])
         self._queue.clear()
-        self._events.stopped(now * self._speed)
+        self._events.stopped(now)
 
     def event(self, now: float) -> int | None:
-        self._events.heard(now * self._speed)
+        self._events.heard(now)
         return self._queue[0][0] if self._queue else None
 
     def reported(self, now: float) -> None:
@@ -99,15 +93,14 @@ class TheoryBrick:
         # What happens while a behaviour runs or an event waits, the host takes in after it: to stay in step with what
         # the host can know, the world lets it happen after it too.
         if self._running is None and not self._queue:
-            for event in self._events.take(now * self._speed + ROUNDING):
+            for event in self._events.take(now):
                 self._world.happen(*event, now, "happened")
                 self._queue.append((self._numbers.encode(*event), event))
 
     def due(self) -> float | None:
         if self._running is not None:
             return self._running.done
-        due = None if self._queue else self._events.due()
-        return None if due is None else due / self._speed
+        return None if self._queue else self._events.due()
 
     def _duration(self, entry: Entry) -> float:
         slow = self._durations.random() < SLOW_CHANCE
@@ -120,7 +113,7 @@ class TheoryBrick:
         self._world.happen(entry.action, args, now, "started" if started else "done")
         if entry.sensed is not None:
             self._value = self._sense(entry, args, now)
-        self._events.ended(before, started, now * self._speed)
+        self._events.ended(before, started, now)
 
     def _sense(self, entry: Entry, args: Args, now: float) -> int:
         action = entry.action
