@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
-from golc.diagnostics import NOWHERE, Code, Diagnostic, Findings, Source, Span
+from golc.diagnostics import NOWHERE, Code, Diagnostic, Findings, Source, Span, UserError
 from golc.syntax import tree
 from golc.syntax.parse import parse_expression
 from golc.theory.suggest import closest
-from golc.theory.theory import Action, BasicActionTheory, Parameter
+from golc.theory.theory import Action, BasicActionTheory, Parameter, Procedure
 from golc.theory.types import Enumeration, Interval, Optional, Type, Value, show_call
 
 
@@ -45,6 +45,24 @@ def read_primitive(theory: BasicActionTheory, where: Span, findings: Findings) -
         return action.name, None
     call = _call(theory, action, target, findings)
     return None if call is None else (action.name, call)
+
+
+def read_procedure(theory: BasicActionTheory, text: str) -> Call:
+    """The procedure that a text names, with its arguments, as ``control`` or ``serve(3)``; raises ``UserError``."""
+    findings = Findings()
+    where = Span(Source("<procedure>", text), 0, len(text))
+    target = _target(where, findings, "a procedure, as in `control` or `serve(3)`")
+    procedure = theory.procedures.get(target.name) if target is not None else None
+    if target is not None and procedure is None:
+        names = list(theory.procedures)
+        help_ = did_you_mean(target.name, names) or (
+            f"the domain declares {', '.join(names)}" if names else "the domain declares no procedure"
+        )
+        findings.error(Code.EVENT, f"unknown procedure `{target.name}`", target.span, "not declared", help_)
+    call = _call(theory, procedure, target, findings) if procedure is not None and target is not None else None
+    if call is None:
+        raise UserError(*findings.diagnostics)
+    return call
 
 
 def read_value(theory: BasicActionTheory, type_: Type, where: Span, findings: Findings) -> tuple[Value] | None:
@@ -140,7 +158,7 @@ def _action(theory: BasicActionTheory, target: _Target, exogenous: bool, finding
     return action
 
 
-def _call(theory: BasicActionTheory, action: Action, target: _Target, findings: Findings) -> Call | None:
+def _call(theory: BasicActionTheory, action: Action | Procedure, target: _Target, findings: Findings) -> Call | None:
     if len(target.args) != len(action.parameters):
         findings.error(
             Code.EVENT,
