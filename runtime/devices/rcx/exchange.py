@@ -1,0 +1,154 @@
+"""One exchange with a brick: a message goes out, an answer that makes sense comes back, or nothing does.
+
+Whatever else is heard has a place here too: the answer to a poll that was given up, answers to something that was sent
+twice, an echo that was missed, panic, nonsense.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from collections.abc import Container
+from dataclasses import dataclass
+
+from golc.runtime.devices.rcx.errors import NonsenseError, PanicError
+from golc.runtime.devices.rcx.numbers import MAXIMUM, ClassicParameters, Digits
+from golc.runtime.devices.rcx.timing import BrickStatistics, Timing
+from golc.runtime.devices.rcx.tower import AWAKE_SECONDS, Tower
+
+logger = logging.getLogger(__name__)
+
+LONGEST = 16
+"""Digits after which a number counts as endless: one for each bit is enough in any base."""
+PATIENT_ASKS = 2
+"""Number of times that *continue* is sent before what it should bring counts as lost."""
+
+
+@dataclass(frozen=True, slots=True)
+class Collected:
+    """A number of one or more digits as it arrived; ``sure`` if no digit can be missing or double."""
+
+    number: int
+    digits: int
+    sure: bool
+
+
+class Exchange:
+    """Asks a brick and sorts what is heard; ``stale`` while answers to something sent twice may be under way."""
+
+    def __init__(self, tower: Tower, numbers: ClassicParameters, timing: Timing, statistics: BrickStatistics) -> None:
+        self.events: deque[int] = deque()
+        self.nonsense: list[int] = []
+        self.stale = False
+        self._tower = tower
+        self._numbers = numbers
+        self._timing = timing
+        self._statistics = statistics
+        self._late_digits: list[int] = []
+        self._late_until = float("-inf")
+
+    def ask(self, number: int, accept: Container[int], wait: float) -> int | None:
+        """Send ``number`` once; the first acceptable answer within ``wait``, or None. PanicError, NonsenseError."""
+        deadline = self._tower.send(number) + wait
+        while (heard := self._tower.receive(deadline)) is not None:
+            if heard in accept:
+                self.nonsense.clear()
+                return heard
+            # The echo of a serial tower comes before anything else; noise can hide where it begins.
+            if heard != number:
+                self._stray(heard)
+        return None
+
+    def collect(self, first: int, kind: Digits) -> Collected | None:
+        """The number that begins with the digit ``first``: asks for the others; None if one never comes."""
+        messages = [first]
+        sure = True
+        while messages[-1] in kind.more:
+            if len(messages) == LONGEST:
+                raise NonsenseError(
+                    f"the brick sends a number without end ({', '.join(map(str, messages[:4]))}, ...)",
+                    "does its program belong to the numbers that the device declares?",
+                )
+            asked = self._tower.now()
+            answer = self._next_digit(kind)
+            if answer is None:
+                return None
+            sure = sure and self._tower.now() - asked <= self._timing.late
+            messages.append(answer)
+        number = kind.join(messages)
+        return Collected(number, len(messages), sure and number <= MAXIMUM)
+
+    def _next_digit(self, kind: Digits) -> int | None:
+        for attempt in range(PATIENT_ASKS):
+            self._statistics.resent += attempt > 0
+            answer = self.ask(self._numbers.proceed, kind.all, self._timing.answer)
+            if answer is not None:
+                return answer
+        return None
+
+    def catch_up(self) -> None:
+        """Sort what has arrived since the last exchange."""
+        while (heard := self._tower.receive(self._tower.now())) is not None:
+            self._stray(heard)
+
+    def let_pass(self, seconds: float) -> None:
+        """Listen for a while and ignore everything: the brick is being reset."""
+        until = self._tower.now() + seconds
+        while self._tower.receive(until) is not None:
+            pass
+
+    def expect_late(self) -> None:
+        """The answer to the poll just made may still come, for as long as the tower is awake."""
+        self._late_until = self._tower.now() + AWAKE_SECONDS
+
+    def forget(self) -> None:
+        """Start afresh: nothing is under way any more. Exogenous actions that were received stay."""
+        self.nonsense.clear()
+        self.stale = False
+        self._late_digits.clear()
+        self._late_until = float("-inf")
+
+    def _stray(self, heard: int) -> None:
+        """Something that is no answer to what was asked."""
+        if heard == self._numbers.panic:
+            raise PanicError("the brick panics", None)
+        if self._tower.now() <= self._late_until and (
+            heard == self._numbers.none or heard in self._numbers.actions.all
+        ):
+            if heard != self._numbers.none:
+                self._late_digit(heard)
+        elif self.stale and self._is_reply(heard):
+            # The brick does something for the second time; it must not be left alone with that.
+            if heard == self._numbers.more_time or heard in self._numbers.values.more:
+                self._tower.send(self._numbers.proceed)
+        else:
+            self._count_nonsense(heard)
+
+    def _is_reply(self, heard: int) -> bool:
+        return heard in self._numbers.values.all or heard in (self._numbers.proceed, self._numbers.more_time)
+
+    def _late_digit(self, heard: int) -> None:
+        self._late_digits.append(heard)
+        if heard in self._numbers.actions.more and len(self._late_digits) < LONGEST:
+            self._tower.send(self._numbers.proceed)
+            self.expect_late()
+            return
+        self.events.append(self._numbers.actions.join(self._late_digits))
+        self._late_digits.clear()
+        self._statistics.late += 1
+        self._statistics.events += 1
+
+    def _count_nonsense(self, heard: int) -> None:
+        self.nonsense.append(heard)
+        self._statistics.nonsense += 1
+        logger.debug("%s: %d means nothing here", self._tower.name, heard)
+        if len(self.nonsense) > self._timing.nonsense:
+            raise self.nonsense_error()
+
+    def nonsense_error(self) -> NonsenseError:
+        """The error that tells what was heard."""
+        heard = ", ".join(map(str, self.nonsense[:8]))
+        return NonsenseError(
+            f"the brick answers with numbers that mean nothing here ({heard})",
+            "does its program belong to the numbers that the device declares, and is no other brick in sight?",
+        )
