@@ -38,7 +38,7 @@ DEPTH = 2_000
 
 
 class NoValueError(Exception):
-    """A closed term has no value: why, and which part of it is to blame."""
+    """A closed term has no value: why (nothing, if it has been said already), and which part of it is to blame."""
 
     def __init__(self, reason: str, span: Span) -> None:
         super().__init__(reason)
@@ -84,7 +84,7 @@ class Closed:
 
     def _static(self, term: StaticTerm, static: Static | None, env: Env) -> Value:
         if static is None:
-            raise NoValueError(f"`{term.static}` has no value", term.span)
+            raise NoValueError("", term.span)
         args = self._arguments(term.static, static.parameters, term.args, env)
         if isinstance(static.body, Mapping):
             return static.body[args]
@@ -96,7 +96,7 @@ class Closed:
 
     def _defined(self, term: DefinedTerm, definition: Definition | None, env: Env) -> Value:
         if definition is None:
-            raise NoValueError(f"`{term.definition}` has no value", term.span)
+            raise NoValueError("", term.span)
         args = self._arguments(term.definition, definition.parameters, term.args, env)
         return self._call(term, definition.body, args)
 

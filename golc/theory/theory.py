@@ -192,13 +192,15 @@ class BasicActionTheory:
     actions: Mapping[str, Action]
     procedures: Mapping[str, Procedure]
     devices: tuple[Device, ...]
+    inline_types: tuple[Type, ...] = ()
+    """The enumerations that stand in place of a type's name and declare symbols."""
 
     @property
     def symbols(self) -> frozenset[Value]:
         """Every symbol of every enumeration."""
         return frozenset(
             value
-            for type_ in self.types.values()
+            for type_ in (*self.types.values(), *self.inline_types)
             if type_.finite and not type_.kinds <= {"int", "bool", "none"}
             for value in type_.values
             if isinstance(value, str)

@@ -1,0 +1,179 @@
+"""What all rooms of the elaborator share: the names, the findings, and each declaration resolved once, when it is needed.
+
+Declarations come in any order, so a declaration is resolved when somebody first asks for it; one that is asked for while
+it is being resolved depends on itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol, TypeAlias
+
+from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Source, Span
+from golc.syntax import tree
+from golc.theory.closed import Closed
+from golc.theory.declare import Declared
+from golc.theory.scope import Entry, Names
+from golc.theory.terms import Literal
+from golc.theory.theory import Constant, Definition, Parameter, Static
+from golc.theory.types import Type
+
+
+@dataclass(frozen=True)
+class Signature:
+    """What a call has to fit: of a fluent, static, definition, action or procedure (``type`` is ``bool`` for the last two)."""
+
+    entry: Entry
+    parameters: tuple[Parameter, ...]
+    type: Type
+
+
+Resolved: TypeAlias = Constant | Type | Signature | Definition | Static | None
+
+
+class Resolver(Protocol):
+    """Gives a declaration its meaning; answers none if it has none, which is a finding already."""
+
+    def __call__(self, context: Context, entry: Entry, /) -> Resolved: ...
+
+
+class Constants(Protocol):
+    """The value of a closed expression, which must fit a type if one is given; none if it has none (a finding)."""
+
+    def __call__(self, context: Context, node: tree.Expr, expected: Type | None, /) -> Literal | None: ...
+
+
+@dataclass
+class Context:
+    """The state of an elaboration. ``resolvers`` and ``constants`` come from the rooms that know how."""
+
+    source: Source
+    declared: Declared
+    findings: Findings
+    overrides: Mapping[str, str]
+    resolvers: Mapping[str, Resolver]
+    constants: Constants
+    device_names: tuple[str, ...] = ()
+    inline_types: dict[int, Type] = field(default_factory=dict)
+    """The enumerations that stand in place of a type's name and declare their symbols, by the identity of the node."""
+    situational: dict[str, bool] = field(default_factory=dict)
+    """Whether a definition depends on the situation, as far as somebody has asked."""
+    _resolved: dict[tuple[str, Entry], Resolved] = field(default_factory=dict)
+    _active: dict[tuple[str, Entry], None] = field(default_factory=dict)
+    _missing: dict[tuple[Code, str], list[Diagnostic]] = field(default_factory=dict)
+
+    @property
+    def names(self) -> Names:
+        return self.declared.names
+
+    # ---- declarations, each resolved once
+
+    def signature(self, entry: Entry) -> Signature | None:
+        """Of a fluent, static, definition, action or procedure."""
+        resolved = self._resolve("signature", entry)
+        assert resolved is None or isinstance(resolved, Signature)
+        return resolved
+
+    def constant(self, entry: Entry) -> Constant | None:
+        """The value of a const."""
+        resolved = self._resolve("constant", entry)
+        assert resolved is None or isinstance(resolved, Constant)
+        return resolved
+
+    def type(self, entry: Entry) -> Type | None:
+        """A declared type."""
+        resolved = self._resolve("type", entry)
+        assert resolved is None or isinstance(resolved, Type)
+        return resolved
+
+    def static(self, entry: Entry) -> Static | None:
+        """A static function with its body."""
+        resolved = self._resolve("static", entry)
+        assert resolved is None or isinstance(resolved, Static)
+        return resolved
+
+    def definition(self, entry: Entry) -> Definition | None:
+        """A definition with its body."""
+        resolved = self._resolve("definition", entry)
+        assert resolved is None or isinstance(resolved, Definition)
+        return resolved
+
+    def closed(self) -> Closed:
+        """An evaluator of closed terms over the declarations as far as they are resolved on demand."""
+        values = self.names.values.entries
+        return Closed(lambda name: self.static(values[name]), lambda name: self.definition(values[name]))
+
+    def _resolve(self, what: str, entry: Entry) -> Resolved:
+        key = (what, entry)
+        if key in self._active:
+            self._circular([active for _, active in [*self._active][[*self._active].index(key) :]])
+            return None
+        if key not in self._resolved:
+            self._active[key] = None
+            self._resolved[key] = self.resolvers[what](self, entry)
+            del self._active[key]
+        return self._resolved[key]
+
+    def _circular(self, circle: list[Entry]) -> None:
+        circle = [*dict.fromkeys(circle)]
+        first = circle[0]
+        pairs = zip(circle[1:], [*circle[2:], first], strict=True)
+        labels = [Label(entry.span, f"which needs `{after.name}`") for entry, after in pairs]
+        self.error(
+            Code.CIRCULAR,
+            f"`{first.name}` depends on itself",
+            first.span,
+            f"needs `{circle[1].name}`" if len(circle) > 1 else "its value needs its value",
+            labels=tuple(labels[:5]),
+        )
+
+    # ---- findings
+
+    def error(
+        self,
+        code: Code,
+        message: str,
+        span: Span,
+        marker: str = "",
+        help: str | None = None,
+        labels: tuple[Label, ...] = (),
+    ) -> None:
+        self.findings.error(code, message, span, marker, help, labels)
+
+    def unsupported(self, what: str, span: Span) -> None:
+        """A part of the language that golc understands but cannot carry out yet."""
+        self.error(Code.UNSUPPORTED, f"{what} not supported yet", span, "not supported yet")
+
+    def missing(self, code: Code, message: str, span: Span, help: str) -> None:
+        """A name that is declared nowhere and is like no other: one finding, however often it is used."""
+        finding = Diagnostic(code, message, span, Severity.ERROR, "not declared", help=help)
+        self._missing.setdefault((code, span.text or message), []).append(finding)
+
+    def finish(self) -> None:
+        """Report what could only be known at the end."""
+        for uses in self._missing.values():
+            uses.sort(key=lambda finding: finding.span.start)
+            lines = [*dict.fromkeys(str(use.span.line) for use in uses[1:])]
+            first = uses[0]
+            also = (
+                f"also used in line{'s' * (len(lines) > 1)} {', '.join(lines[:10])}{', …' if len(lines) > 10 else ''}"
+            )
+            self.findings.add(
+                Diagnostic(
+                    first.code,
+                    first.message,
+                    first.span,
+                    marker=first.marker,
+                    notes=(also,) if lines else (),
+                    help=first.help,
+                )
+            )
+
+
+def first_line(span: Span) -> Span:
+    """The part of a span that stands in its first line: a finding about a block points at its head."""
+    end = span.source.text.find("\n", span.start, span.end)
+    if end < 0:
+        return span
+    return Span(span.source, span.start, span.start + len(span.source.text[span.start : end].rstrip()))

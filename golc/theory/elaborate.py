@@ -1,0 +1,214 @@
+"""The elaborator: the tree of a file to a typed basic action theory.
+
+Names are resolved, types are inferred and checked, constants are evaluated. The work is done in rooms: ``declare`` collects
+the names, ``context`` resolves each declaration once, the ``elaborate_*`` modules know how.
+"""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TypeVar
+
+from golc.diagnostics import Code, Findings, Label, Source
+from golc.syntax import tree
+from golc.syntax.layout import split
+from golc.theory import elaborate_actions as actions
+from golc.theory import elaborate_statements as programs
+from golc.theory import elaborate_types as types
+from golc.theory import elaborate_values as values
+from golc.theory.calls import circular, substatements
+from golc.theory.context import Context, Resolver, Signature
+from golc.theory.declare import declare
+from golc.theory.elaborate_devices import device_name, devices
+from golc.theory.scope import Entry, Kind
+from golc.theory.statements import Invoke
+from golc.theory.terms import DefinedTerm, PossTerm, Term, subterms
+from golc.theory.theory import (
+    Action,
+    BasicActionTheory,
+    Constant,
+    Definition,
+    Fluent,
+    Procedure,
+    Static,
+)
+from golc.theory.types import Type
+
+T = TypeVar("T")
+
+DEEP = 1_000_000
+"""Python frames that the elaborator may need: its recursion costs memory, but no C stack."""
+
+
+def elaborate(
+    file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str] | None = None
+) -> BasicActionTheory | None:
+    """The theory that a file describes, or None if it has errors; every finding is added to ``findings``.
+
+    ``constants`` are values of consts as texts, which replace those in the file (``-D``). If there are errors among
+    ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
+    """
+    assumed = _unread(file, source) if findings.has_errors else frozenset()
+    found = Findings()
+    with _deep_recursion():
+        theory = _elaborate(file, source, found, constants or {}, assumed)
+    for finding in found.diagnostics:
+        findings.add(finding)
+    return None if findings.has_errors else theory
+
+
+@contextmanager
+def _deep_recursion() -> Iterator[None]:
+    before = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(before, DEEP))
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(before)
+
+
+def _unread(file: tree.File, source: Source) -> frozenset[str]:
+    """Every word in the parts of a text that could not be read."""
+    read = {declaration.span.start for declaration in file.declarations}
+    words: set[str] = set()
+    for chunk in split(source.text):
+        if chunk.start not in read:
+            words.update(re.findall(r"[A-Za-z][A-Za-z0-9_]*", source.text[chunk.start : chunk.end]))
+    return frozenset(words)
+
+
+def _elaborate(
+    file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str], assumed: frozenset[str]
+) -> BasicActionTheory:
+    declared = declare(file, findings, assumed)
+    context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value)
+    blocks = [node for node in file.declarations if isinstance(node, tree.Device)]
+    context.device_names = tuple([device_name(node) for node in blocks])
+    values.check_overrides(context)
+    built = _Builder(context)
+    for node in file.declarations:
+        built.declaration(node)
+    theory = BasicActionTheory(
+        file.domain.text,
+        source,
+        built.constants,
+        built.types,
+        built.statics,
+        built.fluents,
+        built.definitions,
+        built.actions,
+        _with_recursion(built.procedures),
+        devices(context, blocks, {action.name: action.senses for action in built.actions.values()}),
+        tuple(context.inline_types.values()),
+    )
+    _check_circles(context, theory)
+    context.finish()
+    return theory
+
+
+class _Builder:
+    """Elaborates every declaration in order and keeps those that have a meaning."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+        self.constants: dict[str, Constant] = {}
+        self.types: dict[str, Type] = {}
+        self.statics: dict[str, Static] = {}
+        self.fluents: dict[str, Fluent] = {}
+        self.definitions: dict[str, Definition] = {}
+        self.actions: dict[str, Action] = {}
+        self.procedures: dict[str, Procedure] = {}
+
+    def declaration(self, node: tree.Declaration) -> None:
+        """Elaborate a declaration. One that repeats a name is elaborated, too, for what is wrong inside it."""
+        context = self.context
+        entry = context.declared.entries.get(id(node))
+        if entry is None or entry.kind in (Kind.GOAL, Kind.INVARIANT):
+            if not isinstance(node, tree.Device):
+                actions.unsupported_declaration(context, node)
+            return
+        match entry.kind:
+            case Kind.CONSTANT:
+                _keep(self.constants, entry, context.constant(entry))
+            case Kind.TYPE:
+                _keep(self.types, entry, context.type(entry))
+            case Kind.STATIC:
+                _keep(self.statics, entry, context.static(entry))
+            case Kind.FLUENT:
+                _keep(self.fluents, entry, actions.fluent(context, entry))
+            case Kind.DEFINITION:
+                _keep(self.definitions, entry, context.definition(entry))
+            case Kind.PROCEDURE:
+                _keep(self.procedures, entry, programs.procedure(context, entry))
+            case _:
+                _keep(self.actions, entry, actions.action(context, entry))
+
+
+def _keep(kept: dict[str, T], entry: Entry, found: T | None) -> None:
+    if found is not None:
+        kept.setdefault(entry.name, found)
+
+
+def _with_recursion(procedures: dict[str, Procedure]) -> Mapping[str, Procedure]:
+    calls = {
+        name: frozenset([part.procedure for part in substatements(procedure.body) if isinstance(part, Invoke)])
+        for name, procedure in procedures.items()
+    }
+    recursive = {name for part in circular(calls) for name in part}
+    return {name: replace(procedure, recursive=name in recursive) for name, procedure in procedures.items()}
+
+
+def _check_circles(context: Context, theory: BasicActionTheory) -> None:
+    """No precondition may ask for itself through ``poss(…)``; definitions alone are checked where they are resolved."""
+    graph = {f"action {name}": _asks(action.preconditions) for name, action in theory.actions.items()}
+    graph |= {f"definition {name}": _asks((found.body,)) for name, found in theory.definitions.items()}
+    for circle in circular(graph):
+        places = [_place(theory, node) for node in circle]
+        action = next(place for place in places if isinstance(place, Action))
+        labels = tuple([Label(place.span, "part of the circle") for place in places if place is not action][:5])
+        message = f"the precondition of `{action.name}` depends on itself"
+        context.error(Code.CIRCULAR, message, action.span, "asks `poss` of itself", labels=labels)
+
+
+def _place(theory: BasicActionTheory, node: str) -> Action | Definition:
+    kind, name = node.split(" ")
+    return theory.actions[name] if kind == "action" else theory.definitions[name]
+
+
+def _asks(terms: tuple[Term, ...]) -> frozenset[str]:
+    asked = set()
+    for term in terms:
+        for part in subterms(term):
+            match part:
+                case PossTerm(action=name):
+                    asked.add(f"action {name}")
+                case DefinedTerm(definition=name):
+                    asked.add(f"definition {name}")
+    return frozenset(asked)
+
+
+def _signature(context: Context, entry: Entry) -> Signature | None:
+    match entry.kind:
+        case Kind.FLUENT:
+            return actions.fluent_signature(context, entry)
+        case Kind.STATIC:
+            return values.static_signature(context, entry)
+        case Kind.DEFINITION:
+            return actions.definition_signature(context, entry)
+        case Kind.PROCEDURE:
+            return programs.procedure_signature(context, entry)
+        case _:
+            return actions.action_signature(context, entry)
+
+
+RESOLVERS: Mapping[str, Resolver] = {
+    "signature": _signature,
+    "constant": values.constant,
+    "type": types.declared_type,
+    "static": values.static,
+    "definition": actions.definition,
+}

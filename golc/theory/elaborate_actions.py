@@ -1,0 +1,241 @@
+"""Fluents, definitions and actions."""
+
+from __future__ import annotations
+
+from golc.diagnostics import Code, Label, Span
+from golc.syntax import tree
+from golc.theory.context import Context, Signature, first_line
+from golc.theory.elaborate_names import unknown_fluent
+from golc.theory.elaborate_terms import arguments, bind, fits, fitting, formula, term
+from golc.theory.elaborate_types import LARGEST, elaborate_type, parameters
+from golc.theory.elaborate_values import closed_term, parameter_scope
+from golc.theory.fitting import BROKEN, size
+from golc.theory.scope import Entry, Kind, Scope
+from golc.theory.suggest import closest
+from golc.theory.terms import Literal, Term
+from golc.theory.theory import Action, Definition, Effect, Fluent
+from golc.theory.types import BOOL, INT
+
+SOURCES = ("rcx", "operator", "host", "self")
+"""The kinds of device; who may report an exogenous action is one of them, or a device by its name."""
+
+
+def fluent_signature(context: Context, entry: Entry) -> Signature:
+    """The parameters of a fluent, all of finite types, and its type: ``bool`` if none is written."""
+    assert isinstance(entry.node, tree.Fluent)
+    found = parameters(context, entry.node.parameters, f"fluent `{entry.name}`")
+    type_ = BOOL if entry.node.type is None else elaborate_type(context, entry.node.type)
+    instances = 1
+    for parameter in found:
+        instances *= 1 if parameter.type is BROKEN else size(parameter.type)
+    if instances > LARGEST:
+        message = f"fluent `{entry.name}` has {instances} instances, more than {LARGEST}"
+        context.error(Code.BAD_TYPE, message, entry.span, "too many")
+    return Signature(entry, found, type_)
+
+
+def fluent(context: Context, entry: Entry) -> Fluent | None:
+    """A fluent with its initial value, which reads no other fluent."""
+    node = entry.node
+    assert isinstance(node, tree.Fluent)
+    signature = context.signature(entry)
+    if signature is None:
+        return None
+    scope = parameter_scope(context, signature.parameters, node.parameters)
+    match node.initial:
+        case None:
+            _no_initial(context, node, signature)
+            return None
+        case tree.Unknown():
+            context.unsupported("`unknown` as a value is", node.initial.span)
+            return None
+        case tree.OneOf():
+            context.unsupported("`one of` as a value is", node.initial.span)
+            return None
+    what = f"fluent `{entry.name}`"
+    initial = term(context, scope, node.initial, signature.type)
+    if node.type is None and initial.type is not BROKEN and initial.type.kinds.isdisjoint(BOOL.kinds):
+        message = f"{what} has no type, which makes it relational (`bool`), but its initial value is not a formula"
+        help_ = f"write its type: `fluent {node.name.text}: … = {initial.span.text}`"
+        context.error(Code.TYPE_MISMATCH, message, initial.span, f"this is of type `{initial.type}`", help_)
+        return None
+    if not fits(context, initial, signature.type, what) or not closed_term(context, initial, "an initial value"):
+        return None
+    return Fluent(entry.name, signature.parameters, signature.type, initial, span=entry.span)
+
+
+def _no_initial(context: Context, node: tree.Fluent, signature: Signature) -> None:
+    name = node.name.text
+    if signature.type is BROKEN:
+        return
+    value = "false" if signature.type == BOOL else "…"
+    context.error(
+        Code.NO_INITIAL,
+        f"fluent `{name}` has no initial value",
+        node.name.span,
+        "what is it at first?",
+        f"add `= {value}` at the end of the declaration",
+    )
+
+
+def definition_signature(context: Context, entry: Entry) -> Signature | None:
+    """The parameters of a definition and the type of its body."""
+    found = context.definition(entry)
+    return None if found is None else Signature(entry, found.parameters, found.type)
+
+
+def definition(context: Context, entry: Entry) -> Definition | None:
+    """A definition with its body."""
+    node = entry.node
+    assert isinstance(node, tree.Define)
+    found = parameters(context, node.parameters, f"definition `{entry.name}`", infinite=True)
+    body = term(context, parameter_scope(context, found, node.parameters), node.body)
+    if body.type is BROKEN or BROKEN in [parameter.type for parameter in found]:
+        return None
+    return Definition(entry.name, found, body.type, body, span=entry.span)
+
+
+def action_signature(context: Context, entry: Entry) -> Signature:
+    """The parameters of an action."""
+    assert isinstance(entry.node, (tree.Action, tree.Exog))
+    what = f"{entry.kind.value} `{entry.name}`"
+    return Signature(entry, parameters(context, entry.node.parameters, what, infinite=True), BOOL)
+
+
+def action(context: Context, entry: Entry) -> Action | None:
+    """An action with its clauses."""
+    node = entry.node
+    assert isinstance(node, (tree.Action, tree.Exog))
+    signature = context.signature(entry)
+    if signature is None:
+        return None
+    scope = parameter_scope(context, signature.parameters, node.parameters)
+    exogenous = isinstance(node, tree.Exog)
+    preconditions: list[Term] = []
+    effects: list[Effect] = []
+    senses: list[Term] = []
+    costs: list[tuple[Span, Term]] = []
+    for clause in node.clauses:
+        match clause:
+            case tree.Precondition(condition=condition):
+                preconditions.append(formula(context, scope, condition, "`poss`"))
+            case tree.Effect():
+                effects.extend(_effect(context, scope, clause))
+            case tree.Senses(value=value):
+                _only_primitive(context, exogenous, "senses", clause.span, entry)
+                senses.append(term(context, scope, value))
+            case tree.Cost(value=value):
+                _only_primitive(context, exogenous, "costs", clause.span, entry)
+                costs.append((clause.span, _cost(context, scope, value)))
+    _one_cost(context, entry, [span for span, _ in costs])
+    return Action(
+        entry.name,
+        signature.parameters,
+        exogenous,
+        tuple(preconditions),
+        tuple(effects),
+        tuple(senses),
+        costs[0][1] if costs else None,
+        _sources(context, node) if isinstance(node, tree.Exog) else (),
+        span=entry.span,
+    )
+
+
+def _only_primitive(context: Context, exogenous: bool, what: str, span: Span, entry: Entry) -> None:
+    if exogenous:
+        message = f"`{entry.name}` is an exogenous action: it {what} nothing, for it is not the agent who does it"
+        context.error(Code.MISPLACED_CLAUSE, message, span, "only a primitive action has this clause")
+
+
+def _one_cost(context: Context, entry: Entry, spans: list[Span]) -> None:
+    for span in spans[1:]:
+        labels = (Label(spans[0], "the first one"),)
+        context.error(Code.MISPLACED_CLAUSE, f"`{entry.name}` has two costs", span, "a second cost", labels=labels)
+
+
+def _cost(context: Context, scope: Scope, node: tree.Expr) -> Term:
+    cost = fitting(context, scope, node, INT, "`cost`")
+    if isinstance(cost, Literal) and isinstance(cost.value, int) and cost.value < 0:
+        context.error(Code.OUTSIDE_TYPE, f"the cost {cost.value} is negative", node.span, "at least 0")
+    return cost
+
+
+def _sources(context: Context, node: tree.Exog) -> tuple[str, ...]:
+    if node.expected:
+        offset = node.span.text.find("expected", node.name.span.end - node.span.start)
+        start = node.span.start + offset
+        span = Span(node.span.source, start, start + len("expected")) if offset >= 0 else node.name.span
+        context.unsupported("`expected` exogenous actions are", span)
+    known = (*SOURCES, *context.device_names)
+    for source in node.sources:
+        if source.text not in known:
+            similar = closest(source.text, known)
+            help_ = f"did you mean `{similar}`?" if similar else f"known are {', '.join(known)}"
+            message = f"unknown source `{source.text}`"
+            context.error(Code.UNKNOWN_NAME, message, source.span, "neither a kind of device nor a device", help_)
+    return tuple([source.text for source in node.sources])
+
+
+def _effect(context: Context, scope: Scope, node: tree.Effect) -> tuple[Effect, ...]:
+    """The effect of a clause, or nothing if it has no meaning."""
+    inner, binders = bind(context, scope, node.binders)
+    where = None if node.where is None else formula(context, inner, node.where, "`where`")
+    signature = _target(context, node.target)
+    args = None if signature is None else arguments(context, inner, node.target, signature)
+    if signature is None:
+        for arg in node.target.args:
+            term(context, inner, arg)
+    value = _new_value(context, inner, node, signature)
+    condition = None if node.condition is None else formula(context, inner, node.condition, "`when`")
+    if signature is None or args is None or value is None:
+        return ()
+    return (Effect(binders, where, signature.entry.name, args, value, condition, span=node.span),)
+
+
+def _target(context: Context, node: tree.Apply) -> Signature | None:
+    entry = context.names.values.get(node.name.text)
+    if entry is None:
+        unknown_fluent(context, node.name, len(node.args))
+        return None
+    if entry.kind is not Kind.FLUENT:
+        message = f"`{entry.name}` is {entry.kind.phrase}, and only fluents change"
+        labels = (Label(entry.span, "declared here"),)
+        context.error(Code.MISUSED_NAME, message, node.name.span, "a fluent is needed here", labels=labels)
+        return None
+    return context.signature(entry)
+
+
+def _new_value(context: Context, scope: Scope, node: tree.Effect, signature: Signature | None) -> Term | None:
+    match node.value:
+        case tree.Unknown():
+            context.unsupported("`unknown` as a value is", node.value.span)
+            return None
+        case tree.OneOf():
+            context.unsupported("`one of` as a value is", node.value.span)
+            return None
+        case value if signature is None:
+            term(context, scope, value)
+            return None
+        case value:
+            return fitting(context, scope, value, signature.type, f"fluent `{signature.entry.name}`")
+
+
+def unsupported_declaration(context: Context, node: tree.Declaration) -> None:
+    """Report a declaration that golc understands but cannot carry out yet."""
+    match node:
+        case tree.Import():
+            context.unsupported("`import` is", node.span)
+        case tree.Initially():
+            context.unsupported("`initially` is", node.span)
+        case tree.Axiom(fluent=name):
+            context.unsupported("`axiom` is", name.span)
+        case tree.Invariant(name=name):
+            context.unsupported("`invariant` is", name.span)
+        case tree.Goal(name=name):
+            context.unsupported("`goal` is", name.span)
+        case tree.Prune(name=name) | tree.PruneAfter(name=name):
+            context.unsupported("`prune` is", name.span)
+        case tree.Scenario(name=name):
+            context.unsupported("`scenario` is", name.span)
+        case _:
+            context.unsupported("this declaration is", first_line(node.span))

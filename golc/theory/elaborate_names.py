@@ -1,0 +1,137 @@
+"""What a name in an expression stands for, and what to say if it stands for nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TypeAlias
+
+from golc.diagnostics import Code, Label
+from golc.syntax import tree
+from golc.theory.context import Context, Signature
+from golc.theory.elaborate_types import home
+from golc.theory.fitting import BROKEN, strip_optional
+from golc.theory.scope import Entry, Kind, Scope
+from golc.theory.terms import Literal, Variable
+from golc.theory.types import Enumeration, Type, show
+
+TERMS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.CONSTANT, Kind.SYMBOL)
+CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC)
+
+Resolution: TypeAlias = Variable | Literal | Signature | None
+"""A variable, the value of a constant, something to apply to arguments, or none (a finding, or none of its own)."""
+
+
+def resolve(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> Resolution:
+    """What the name of a term stands for: a variable in scope, otherwise what is declared.
+
+    ``hint`` is the type that is needed here: its values are what a misspelt name probably meant.
+    """
+    variable = scope.get(node.name.text)
+    if variable is not None:
+        return variable if not node.args else _no_arguments(context, node, "a variable", None)
+    entry = context.names.values.get(node.name.text)
+    if entry is None:
+        _unknown_term(context, scope, node, hint)
+        return None
+    match entry.kind:
+        case Kind.CONSTANT | Kind.SYMBOL if node.args:
+            return _no_arguments(context, node, entry.kind.phrase, entry)
+        case Kind.CONSTANT:
+            constant = context.constant(entry)
+            return constant and Literal(constant.value, type=constant.type, span=node.span)
+        case Kind.SYMBOL:
+            return Literal(entry.name, type=home(context, entry), span=node.span)
+        case Kind.TYPE:
+            context.unsupported(f"the list of the values of `{entry.name}` is", node.name.span)
+            return None
+        case Kind.GOAL | Kind.INVARIANT:
+            return None  # their declarations are not supported yet, which is said there
+        case _:
+            return context.signature(entry)
+
+
+def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding, entry: Entry, given: int) -> bool:
+    """Whether something gets as many arguments as it takes; otherwise a finding."""
+    if given == entry.arity:
+        return True
+    name = node.name if isinstance(node, tree.Apply) else node.action
+    takes = f"{entry.arity} argument{'s' * (entry.arity != 1)}" if entry.arity else "no arguments"
+    labels = (Label(entry.span, f"{entry.kind.phrase} with {takes} is declared here"),)
+    marker = f"{given} argument{'s' * (given != 1)} here" if given else "no arguments here"
+    context.error(Code.ARITY, f"`{name.text}` takes {takes}, not {given or 'none'}", name.span, marker, labels=labels)
+    return False
+
+
+def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable[Kind]) -> Entry | None:
+    """The action or procedure of that name; ``kinds`` are those that fit here, ``given`` the number of arguments."""
+    entry = context.names.doings.get(name.text)
+    if entry is not None or context.names.assumes(name.text):
+        return entry
+    value = context.names.values.get(name.text)
+    wanted = " or ".join(dict.fromkeys(kind.value.removeprefix("exogenous ") for kind in kinds))
+    if value is not None:
+        message = f"`{name.text}` is {value.kind.phrase}, not an {wanted}"
+        help_ = (
+            f"`test {name.text}` goes on only if it holds" if value.kind in CALLS and Kind.PROCEDURE in kinds else None
+        )
+        labels = (Label(value.span, "declared here"),)
+        context.error(Code.MISUSED_NAME, message, name.span, f"an {wanted} is needed here", help_, labels)
+        return None
+    similar = context.names.similar(name.text, kinds, given)
+    if similar is None:
+        help_ = f"declare it: `action {name.text}`" + (f", or `proc {name.text}: …`" if Kind.PROCEDURE in kinds else "")
+        context.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
+        return None
+    message = f"unknown {similar.kind} `{name.text}`"
+    context.error(Code.UNKNOWN_ACTION, message, name.span, "not declared", similar.help, similar.labels)
+    return None
+
+
+def unknown_fluent(context: Context, name: tree.Ident, given: int) -> None:
+    """Report the target of an effect that is declared nowhere."""
+    if context.names.assumes(name.text):
+        return
+    message = f"unknown fluent `{name.text}`"
+    similar = context.names.similar(name.text, [Kind.FLUENT], given)
+    if similar is None:
+        context.missing(Code.UNKNOWN_NAME, message, name.span, f"declare it: `fluent {name.text}… = …`")
+    else:
+        context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", similar.help, similar.labels)
+
+
+def _no_arguments(context: Context, node: tree.Apply, what: str, entry: Entry | None) -> None:
+    labels = (Label(entry.span, "declared here"),) if entry else ()
+    message = f"`{node.name.text}` is {what} and takes no arguments"
+    context.error(Code.ARITY, message, node.name.span, "no arguments here", labels=labels)
+
+
+def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> None:
+    name, given = node.name, len(node.args)
+    if context.names.assumes(name.text):
+        return
+    action = context.names.doings.get(name.text)
+    if action is not None:
+        help_ = None if action.kind is Kind.PROCEDURE else f"`poss({name.span.text})` says whether it is possible"
+        message = f"`{name.text}` is {action.kind.phrase}, not a value"
+        labels = (Label(action.span, "declared here"),)
+        context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_, labels)
+        return
+    variables = () if given else tuple(scope.locals)
+    similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
+    if similar is None:
+        what, help_ = ("fluent", f"declare it: `fluent {name.text}(…) = …`") if given else ("name", _declare(name.text))
+        context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
+    else:
+        message = f"unknown {similar.kind} `{name.text}`"
+        context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", similar.help, similar.labels)
+
+
+def _declare(name: str) -> str:
+    return f"declare it: `fluent {name} = …`, `const {name} = …`, or as a value of a type"
+
+
+def _symbols_of(hint: Type | None, given: int) -> tuple[str, ...]:
+    type_ = strip_optional(hint) if hint is not None and hint is not BROKEN else None
+    if not isinstance(type_, Enumeration) or given:
+        return ()
+    return tuple([show(value) for value, owner in type_.members if owner])

@@ -1,0 +1,165 @@
+"""Blocks of statements to typed programs."""
+
+from __future__ import annotations
+
+from golc.diagnostics import Code, Label
+from golc.syntax import tree
+from golc.theory import statements as typed
+from golc.theory.context import Context, Signature, first_line
+from golc.theory.elaborate_names import doing
+from golc.theory.elaborate_terms import arguments, bind, formula, term
+from golc.theory.elaborate_types import parameters
+from golc.theory.elaborate_values import parameter_scope
+from golc.theory.fitting import BROKEN
+from golc.theory.scope import Entry, Kind, Scope
+from golc.theory.theory import Procedure
+from golc.theory.types import BOOL
+
+
+def procedure_signature(context: Context, entry: Entry) -> Signature:
+    """The parameters of a procedure."""
+    assert isinstance(entry.node, tree.Proc)
+    found = parameters(context, entry.node.parameters, f"procedure `{entry.name}`", infinite=True)
+    return Signature(entry, found, BOOL)
+
+
+def procedure(context: Context, entry: Entry) -> Procedure | None:
+    """A procedure with its body; whether it is recursive is not known yet."""
+    assert isinstance(entry.node, tree.Proc)
+    signature = context.signature(entry)
+    if signature is None:
+        return None
+    scope = parameter_scope(context, signature.parameters, entry.node.parameters)
+    body = block(context, scope, entry.node.body)
+    return Procedure(entry.name, signature.parameters, body, recursive=False, span=entry.span)
+
+
+def block(context: Context, scope: Scope, node: tree.Block) -> typed.Statement:
+    """The program of a block."""
+    parts = [statement(context, scope, part) for part in node.statements]
+    return parts[0] if len(parts) == 1 else typed.Sequence(tuple(parts), span=node.span)
+
+
+def statement(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
+    """The program of a statement; what is not supported is a finding and stands as its blocks alone."""
+    span = node.span
+    match node:
+        case tree.Call(target=target):
+            return _call(context, scope, target)
+        case tree.Test(condition=condition):
+            return typed.Test(formula(context, scope, condition, "`test`"), span=span)
+        case tree.Skip():
+            return typed.Skip(span=span)
+        case tree.If():
+            return _if(context, scope, node)
+        case tree.While(condition=condition, body=body):
+            test = formula(context, scope, condition, "`while`")
+            return typed.While(test, block(context, scope, body), span=span)
+        case tree.Choose(branches=branches):
+            return typed.Choose(_blocks(context, scope, branches), span=span)
+        case tree.Together(branches=branches):
+            return typed.Together(_blocks(context, scope, branches), span=span)
+        case tree.Prefer(branches=branches):
+            return typed.Prefer(_blocks(context, scope, branches), span=span)
+        case tree.Pick():
+            inner, binders = bind(context, scope, node.binders)
+            where = None if node.where is None else formula(context, inner, node.where, "`where`")
+            return typed.Pick(binders, where, block(context, inner, node.body), span=span)
+        case tree.Let(name=name, value=value, body=body):
+            found = term(context, scope, value)
+            inner, variable = scope.bind(name, found.type)
+            return typed.Let(variable, found, block(context, inner, body), span=span)
+        case tree.Interrupts(handlers=handlers):
+            return typed.Interrupts(tuple([_interrupt(context, scope, handler) for handler in handlers]), span=span)
+        case tree.Wait():
+            return typed.Wait(span=span)
+        case tree.WaitUntil(condition=condition):
+            return typed.WaitUntil(formula(context, scope, condition, "`wait until`"), span=span)
+        case tree.Say(message=message):
+            return typed.Say(spoken(context, scope, message), span=span)
+        case tree.Abort(message=message):
+            return typed.Abort(spoken(context, scope, message), span=span)
+        case _:
+            return _limited(context, scope, node)
+
+
+def spoken(context: Context, scope: Scope, node: tree.Message) -> typed.Message:
+    """A message with its terms."""
+    return typed.Message(tuple([part if isinstance(part, str) else term(context, scope, part) for part in node.parts]))
+
+
+def _limited(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
+    """The statements of which only some forms are supported."""
+    span, head = node.span, first_line(node.span)
+    match node:
+        case tree.Star(limit=limit, body=body):
+            if limit is not None:
+                context.unsupported("`star at most` is", head)
+            return typed.Star(block(context, scope, body), span=span)
+        case tree.Search(mode=mode, at_most=at_most, within=within, body=body):
+            if mode not in (None, "first") or at_most is not None or within is not None:
+                what = f"`search {mode}` is" if mode not in (None, "first") else "a limit of `search` is"
+                context.unsupported(what, head)
+            return typed.Search(block(context, scope, body), span=span)
+        case tree.For(body=body):
+            context.unsupported("`for` is", head)
+            inner, _ = bind(context, scope, tuple([binder for binder in node.binders if binder.type is not None]))
+            for binder in node.binders:
+                if binder.type is None:
+                    inner, _ = inner.bind(binder.name, BROKEN)
+            return block(context, inner, body)
+        case tree.TogetherStar(body=body):
+            context.unsupported("`together star` is", head)
+            return block(context, scope, body)
+        case tree.Guard(condition=condition, body=body):
+            context.unsupported("`guard` is", head)
+            formula(context, scope, condition, "`guard`")
+            return block(context, scope, body)
+        case tree.Within(body=body, otherwise=otherwise):
+            context.unsupported("`within` is", head)
+            if otherwise is not None:
+                block(context, scope, otherwise)
+            return block(context, scope, body)
+        case _:
+            context.unsupported("`wait` for a time is", span)
+            return typed.Skip(span=span)
+
+
+def _blocks(context: Context, scope: Scope, nodes: tuple[tree.Block, ...]) -> tuple[typed.Statement, ...]:
+    return tuple([block(context, scope, node) for node in nodes])
+
+
+def _if(context: Context, scope: Scope, node: tree.If) -> typed.Statement:
+    found: typed.Statement = typed.Skip(span=node.span)
+    if node.otherwise is not None:
+        found = block(context, scope, node.otherwise)
+    for condition, body in reversed(node.branches):
+        test = formula(context, scope, condition, "`if`")
+        found = typed.If(test, block(context, scope, body), found, span=condition.span.to(body.span))
+    return found
+
+
+def _interrupt(context: Context, scope: Scope, node: tree.On) -> typed.Interrupt:
+    inner, binders = bind(context, scope, node.binders)
+    condition = formula(context, inner, node.condition, "`where`" if binders else "`on`")
+    return typed.Interrupt(binders, condition, block(context, inner, node.body), span=node.span)
+
+
+def _call(context: Context, scope: Scope, node: tree.Apply) -> typed.Statement:
+    entry = doing(context, node.name, len(node.args), (Kind.ACTION, Kind.PROCEDURE))
+    signature = None if entry is None else context.signature(entry)
+    if entry is None or signature is None:
+        for arg in node.args:
+            term(context, scope, arg)
+        return typed.Skip(span=node.span)
+    if entry.kind is Kind.EXOGENOUS:
+        labels = (Label(entry.span, "declared here"),)
+        message = f"`{entry.name}` is an exogenous action: it happens, a program cannot do it"
+        help_ = "wait for it, for example with `wait until`"
+        context.error(Code.MISUSED_NAME, message, node.name.span, "not an action of the agent", help_, labels)
+    args = arguments(context, scope, node, signature)
+    if args is None:
+        return typed.Skip(span=node.span)
+    if entry.kind is Kind.PROCEDURE:
+        return typed.Invoke(entry.name, args, span=node.span)
+    return typed.Perform(entry.name, args, span=node.span)
