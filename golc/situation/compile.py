@@ -91,6 +91,9 @@ class Compiler:
 
     def environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
         """A function of a state and an environment that yields the longer ones which binders and ``where`` make."""
+        if not binders:
+            condition = "True" if where is None else self.expression(where, environment(depth))
+            return self.function("s, e", [f"return iter((e,) if {condition} else ())"])
         cells, clauses = self.loops(binders, where, environment(depth))
         added = "".join(f"{cell.text}, " for cell in cells[depth:])
         return self.function("s, e", [f"return (e + ({added}) {clauses})"])
@@ -249,8 +252,6 @@ class Compiler:
         return name
 
     def _membership(self, element: str, type_: Type, within: Type) -> str:
-        if fits(type_, within):
-            return f"({element} is not ...)"  # always true, but the element's own errors stay
         if isinstance(within, Interval) and type_.kinds == {"int"}:
             return f"({within.low} <= {element} <= {within.high})"
         return f"({element} in {self.bind('set', frozenset(within.values))})"

@@ -12,7 +12,7 @@ from typing import Any, TypeAlias
 
 from golc.diagnostics import Span
 from golc.situation import errors
-from golc.situation.compile import Cells, Compiler, variables
+from golc.situation.compile import Cells, Compiler, fits, variables
 from golc.situation.interpret import Interpreter
 from golc.situation.layout import Layout, State
 from golc.theory.terms import FluentTerm, Term, Variable
@@ -158,15 +158,22 @@ class Dynamics:
     def _assignment(self, effect: Effect, cells: Cells, collect: bool) -> list[str]:
         place = self.layout.places[effect.fluent]
         slot = self.compiler.slot(place, effect.args, cells)
-        value = self.compiler.checked(effect.value, place.fluent.type, cells, self._outside(effect))
+        lines = [f"i = {slot}", f"x = {self.compiler.expression(effect.value, cells)}"]
+        if not fits(effect.value.type, place.fluent.type):
+            values = self.compiler.bind("type", place.fluent.type)
+            lines.append(f"if x not in {values}: {self.compiler.bind('outside', self._outside(effect))}(i, x)")
         if not collect:
-            return [f"i = {slot}", f"r[i] = {value}"]
+            return [*lines, "r[i] = x"]
         conflict = self.compiler.bind("conflict", self._conflict(effect))
-        return [f"i = {slot}", f"x = {value}", f"if w.setdefault(i, x) != x: {conflict}(i, w[i], x)"]
+        return [*lines, f"if w.setdefault(i, x) != x: {conflict}(i, w[i], x)"]
 
-    def _outside(self, effect: Effect) -> Callable[[Value], Exception]:
-        place = self.layout.places[effect.fluent]
-        return lambda value: errors.value_outside(effect.value.span, place.fluent.name, value, place.fluent.type)
+    def _outside(self, effect: Effect) -> Callable[[int, Value], None]:
+        def outside(slot: int, value: Value) -> None:
+            name, args = self.layout.ground_fluents[slot]
+            type_ = self.theory.fluents[name].type
+            raise errors.value_outside(effect.value.span, show_call(name, args), value, type_)
+
+        return outside
 
     def _conflict(self, effect: Effect) -> Callable[[int, Value, Value], None]:
         def conflict(slot: int, first: Value, second: Value) -> None:

@@ -1,0 +1,34 @@
+# `make demo` and `make test` set up all they need: a virtual environment in .venv, and nqc where it is missing.
+
+PYTHON ?= python3
+VENV ?= .venv
+BIN = $(VENV)/bin
+
+.PHONY: demo test bench nqc clean
+
+demo: $(VENV)/ready nqc
+	$(BIN)/golc check examples/delivery/delivery.gl
+	$(BIN)/golc gen-nqc examples/delivery/delivery.gl --compile
+	$(BIN)/golc run examples/delivery/delivery.gl --events examples/delivery/demo.events --speed 20 --stop-when-idle 30
+
+test: $(VENV)/ready nqc
+	$(BIN)/ruff format --check .
+	$(BIN)/ruff check .
+	$(BIN)/mypy golc tests
+	rm -rf build && $(BIN)/pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir build/wheel .
+	tests/packaging/try-wheel $(PYTHON) build/wheel/*.whl
+	$(BIN)/pytest --cov --cov-report=term:skip-covered -q
+
+bench: $(VENV)/ready
+	$(BIN)/python tests/bench
+
+$(VENV)/ready: pyproject.toml
+	$(PYTHON) -m venv $(VENV) || (tests/packaging/install python3-venv && $(PYTHON) -m venv $(VENV))
+	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	touch $@
+
+nqc:
+	@command -v nqc > /dev/null || tests/packaging/install nqc
+
+clean:
+	rm -rf $(VENV) build

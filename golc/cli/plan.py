@@ -1,0 +1,179 @@
+"""``golc plan``: offline execution of a program."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from golc.cli.common import Console, console_options, constants_option
+
+if TYPE_CHECKING:
+    from golc.planning.planner import Outcome, Plan
+
+DONE, NO_PLAN, GAVE_UP = 0, 1, 3
+EVERY = 10**12
+"""What `--all` without a number stands for."""
+
+
+@click.command(name="plan", short_help="Plan offline with a program.")
+@click.argument("file", type=click.Path())
+@click.argument("procedure", metavar="[PROC]", default="control")
+@click.option("--first", is_flag=True, help="One plan, the first in program order; this is the default.")
+@click.option(
+    "--all",
+    "most",
+    is_flag=False,
+    flag_value=EVERY,
+    type=click.IntRange(min=1),
+    metavar="[N]",
+    help="Every distinct sequence of actions, once, or the first N of them.",
+)
+@click.option("--steps", type=click.IntRange(min=0), metavar="N", help="At most N actions in a plan.")
+@click.option("--time", "seconds", type=click.FloatRange(min=0), metavar="S", help="Give up after S seconds.")
+@click.option(
+    "--nodes", type=click.IntRange(min=1), metavar="N", help="Give up after N expanded pairs of program and state."
+)
+@click.option("--stats", is_flag=True, help="Say what the search took.")
+@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to write plans.")
+@click.option("-o", "--output", type=click.Path(dir_okay=False), metavar="FILE", help="Write the plans to a file.")
+@constants_option
+@console_options
+def command(
+    console: Console,
+    file: str,
+    procedure: str,
+    first: bool,
+    most: int | None,
+    steps: int | None,
+    seconds: float | None,
+    nodes: int | None,
+    stats: bool,
+    format_: str,
+    output: str | None,
+    constants: Mapping[str, str],
+) -> int:
+    """Execute a program of FILE offline and print the actions of a plan, one a line.
+
+    PROC is a procedure, with arguments where it takes some; the default is `control`. `search` blocks are part of the
+    program. Nothing is sent to any device.
+
+    \b
+    golc plan examples/elevator/elevator.gl
+    golc plan examples/elevator/elevator.gl 'handle(25)' --all
+    """
+    from golc.loading import load
+    from golc.planning.limits import Limits
+    from golc.planning.planner import Planning, executable
+    from golc.runtime.calls import read_procedure
+
+    if first and most is not None:
+        raise click.UsageError("--first and --all exclude each other")
+    theory = load(file, constants)
+    call = read_procedure(theory, procedure)
+    planning = Planning(executable(theory, call.action, call.args), Limits(steps, nodes, seconds), most is not None)
+    with _writer(output) as write:
+        listing = _Json(write) if format_ == "json" else _Text(write, numbered=most is not None)
+        for plan in islice(planning, most):
+            listing.add(plan)
+        listing.close(planning.outcome)
+    outcome = planning.outcome
+    _report(console, str(call), outcome, stats)
+    if outcome.plans and most is not None and outcome.plans >= most:
+        return DONE
+    return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
+
+
+@contextmanager
+def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
+    """Writes lines to a file, which appears only when it is complete, or to stdout as they come."""
+    if output is None:
+        yield lambda line: print(line, flush=True)
+        return
+    path = Path(output)
+    partial = path.with_name(path.name + ".part")
+    try:
+        with partial.open("w", encoding="utf-8") as stream:
+            yield lambda line: print(line, file=stream)
+        partial.replace(path)
+    except OSError as error:
+        raise click.FileError(output, error.strerror or str(error)) from None
+    finally:
+        partial.unlink(missing_ok=True)
+
+
+class _Text:
+    """One action a line; with several plans a heading for each."""
+
+    def __init__(self, write: Callable[[str], None], numbered: bool) -> None:
+        self._write = write
+        self._numbered = numbered
+        self._count = 0
+
+    def add(self, plan: Plan) -> None:
+        self._count += 1
+        if self._numbered:
+            self._write(f"# plan {self._count}: {_actions(len(plan.actions))}")
+        for action in plan.actions:
+            self._write(str(action))
+
+    def close(self, outcome: Outcome) -> None:
+        """Nothing more to say: a failure is told on stderr."""
+
+
+class _Json:
+    """One object: ``plans`` (lists of ``{"action": name, "args": [...]}``), ``outcome``, ``gave_up``, ``expanded``."""
+
+    def __init__(self, write: Callable[[str], None]) -> None:
+        self._write = write
+        self._plans: list[Any] = []
+
+    def add(self, plan: Plan) -> None:
+        self._plans.append([{"action": action.action, "args": list(action.args)} for action in plan.actions])
+
+    def close(self, outcome: Outcome) -> None:
+        """Write the object."""
+        result = "found" if outcome.plans else "gave up" if outcome.gave_up else "impossible"
+        document = {
+            "outcome": result,
+            "gave_up": outcome.gave_up,
+            "plans": self._plans,
+            "deepest": [str(action) for action in outcome.stuck],
+            "failed": [str(reason) for reason in outcome.reasons],
+            "expanded": outcome.expanded,
+        }
+        self._write(json.dumps(document, indent=2))
+
+
+def _report(console: Console, program: str, outcome: Outcome, stats: bool) -> None:
+    if not outcome.plans:
+        verdict = f"gave up: {outcome.gave_up}" if outcome.gave_up else "proven: it cannot be executed to its end"
+        console.err(f"no plan for `{program}`: {verdict}")
+        way = ", ".join(map(str, outcome.stuck)) or "no action at all"
+        if outcome.reasons:
+            console.err(f"the longest way was: {way}; there")
+        for reason in outcome.reasons:
+            console.err(f"  {reason}")
+    elif outcome.gave_up:
+        console.note(f"not all plans: {outcome.gave_up}")
+    elif not stats:
+        console.note(f"{_plans(outcome.plans)}")
+    if stats:
+        rate = outcome.expanded / outcome.seconds if outcome.seconds else 0
+        console.err(
+            f"{_plans(outcome.plans)}, {outcome.expanded} pairs of program and state expanded in "
+            f"{outcome.seconds:.3f} s ({rate:,.0f} a second)"
+        )
+
+
+def _plans(count: int) -> str:
+    return f"{count} plan{'' if count == 1 else 's'}"
+
+
+def _actions(count: int) -> str:
+    return f"{count} action{'' if count == 1 else 's'}"
