@@ -2,6 +2,7 @@
 
 from golc.runtime.devices.rcx.brick import DEFAULT_TIMEOUT, Brick
 from golc.runtime.devices.rcx.errors import (
+    InterruptedExchangeError,
     LinkError,
     NonsenseError,
     NotATowerError,
@@ -25,6 +26,7 @@ __all__ = [
     "Brick",
     "BrickStatistics",
     "ClassicParameters",
+    "InterruptedExchangeError",
     "LinkError",
     "NonsenseError",
     "NotATowerError",

@@ -1,15 +1,16 @@
 """A brick that speaks the classic protocol of Legolog: actions, exogenous actions, abort; numbers in, numbers out.
 
-The wire has no sequence numbers, so the host cannot tell a lost message from a lost answer. What can be done about that
-on this side is done:
+The wire has no sequence numbers, so the host cannot tell a lost message from a lost answer: it sends a part again when
+no answer has come for 3.5 s. A control program that golc generated recognises that by the time and by what came before,
+and answers again without doing anything twice. Legolog's own does not (``remembers=False``), so with that the host
 
-- a number of several digits whose answer is missing is not continued blindly: the host finds out first, with a request
-  for exogenous actions, whether the brick waits for another digit;
-- a sensing value of several digits in which an answer was missing or late is thrown away, and the action repeated;
-- an answer that comes late is not taken for the answer to the next action;
-- an exogenous action that comes after its poll was given up is kept for the next poll.
+- finds out first, with a request for exogenous actions, whether the brick still waits for a digit, when the answer to a
+  part of a longer number is missing, and starts the number again if it does not;
+- throws away a sensing value of several digits in which an answer was missing or late, and repeats the action.
 
-What remains: an action whose answer was lost is done again, unless the caller forbids it (``repeat=False``).
+What remains there: an action whose answer was lost is done again, unless the caller forbids it (``repeat=False``). With
+both, an answer that comes late is not taken for the answer to the next action, and an exogenous action that comes after
+its poll was given up is kept for the next poll.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Self
 
-from golc.runtime.devices.rcx.errors import LinkError, OverdueError, PanicError, SilentBrickError
-from golc.runtime.devices.rcx.exchange import PATIENT_ASKS, Exchange
+from golc.runtime.devices.rcx.errors import LinkError, NonsenseError, OverdueError, PanicError, SilentBrickError
+from golc.runtime.devices.rcx.exchange import Exchange
 from golc.runtime.devices.rcx.numbers import ClassicParameters
 from golc.runtime.devices.rcx.timing import BrickStatistics, Timing
 from golc.runtime.devices.rcx.tower import Tower
@@ -31,6 +32,10 @@ logger = logging.getLogger(__name__)
 
 DEFAULT_TIMEOUT = 15.0
 """Seconds that an action may take, as in Legolog."""
+FORGETFUL_ASKS = 2
+"""Number of times that *continue* is sent to a brick that may take the second one for another acknowledgement."""
+NEW_AFTER = 2.5
+"""A message equal to the one before it that comes later than this could be taken for the same one sent again."""
 PROBES = 3
 """Requests, together as long as one wait for an answer, after which a brick that says nothing waits for a digit."""
 CHECK_HELP = (
@@ -54,12 +59,21 @@ class _Action:
 class Brick:
     """The host's end of the classic protocol; one exchange at a time, not for use by several threads."""
 
-    def __init__(self, tower: Tower, parameters: ClassicParameters | None = None, timing: Timing | None = None) -> None:
+    def __init__(
+        self,
+        tower: Tower,
+        parameters: ClassicParameters | None = None,
+        timing: Timing | None = None,
+        remembers: bool = True,
+    ) -> None:
+        """``remembers``: the program on the brick recognises a message that is sent again, as those of golc do."""
         self.statistics = BrickStatistics()
         self._tower = tower
         self._numbers = parameters or ClassicParameters()
         self._timing = timing or Timing()
-        self._exchange = Exchange(tower, self._numbers, self._timing, self.statistics)
+        self._remembers = remembers
+        asks = self._timing.sends if remembers else FORGETFUL_ASKS
+        self._exchange = Exchange(tower, self._numbers, self._timing, self.statistics, asks)
         self._replies = frozenset((*self._numbers.values.all, self._numbers.more_time))
         self._polled = frozenset((*self._numbers.actions.all, self._numbers.none))
         self._silent_polls = 0
@@ -92,7 +106,7 @@ class Brick:
         parts = self._numbers.actions.split(number)
         with self._abort_on_panic():
             self._exchange.catch_up()
-            self._outlive_stale_answers()
+            self._mark_off(parts[0])
             action = _Action(number, parts, timeout, self._tower.now() + timeout, repeat)
             while (value := self._attempt(action)) is None:
                 self.statistics.repeated += 1
@@ -112,6 +126,13 @@ class Brick:
                 self._count_silence(self._request())
         return self._exchange.events.popleft() if self._exchange.events else None
 
+    def interrupt(self) -> None:
+        """Make the call that is under way in another thread, or the next one, raise InterruptedExchangeError soon.
+
+        That lasts until ``abort`` is called, which has to follow: what the brick does is then unknown.
+        """
+        self._exchange.interrupted = True
+
     def abort(self, confirm: bool = True) -> None:
         """Tell the brick to stop all behaviours, until it answers a request again.
 
@@ -124,7 +145,7 @@ class Brick:
         deadline = self._tower.now() + self._timing.abort
         unconfirmed: LinkError = SilentBrickError("the brick does not confirm the abort: it may go on", CHECK_HELP)
         while True:
-            self._tower.send(self._numbers.abort)
+            self._exchange.send(self._numbers.abort)
             if not confirm:
                 return
             # The brick keeps only the last message, so it gets the time to read this one.
@@ -134,6 +155,8 @@ class Brick:
                     return
             except PanicError:
                 unconfirmed = PanicError("the brick panics and does not obey the abort", "restart its program by hand")
+            except NonsenseError as error:
+                unconfirmed = error
             if self._tower.now() >= deadline:
                 raise unconfirmed
 
@@ -149,7 +172,7 @@ class Brick:
         if answer is None:
             return None
         collected = self._exchange.collect(answer, self._numbers.values)
-        if collected is not None and collected.sure:
+        if collected is not None and (collected.sure or self._remembers):
             return collected.number
         self._exchange.stale = True
         if not action.repeat:
@@ -165,7 +188,7 @@ class Brick:
                 self._note_silence(action)
                 if part == action.parts[-1] and not action.repeat:
                     raise self._silent(action, "whether it was done is not known")
-                answer = self._where(expected) if len(action.parts) > 1 else None
+                answer = self._where(expected) if len(action.parts) > 1 and not self._remembers else None
             if answer == self._numbers.none:
                 return None
             if answer is not None:
@@ -190,7 +213,7 @@ class Brick:
     def _grant(self, action: _Action) -> int | None:
         """Grant the brick the time it asks for; its next answer, or None if that was lost."""
         self.statistics.more_time += 1
-        for _ in range(PATIENT_ASKS):
+        for _ in range(self._exchange.asks):
             if self._tower.now() >= action.deadline:
                 raise OverdueError(
                     f"action {action.number} has not ended within its {action.timeout:g} s",
@@ -240,20 +263,25 @@ class Brick:
         if first == self._numbers.none:
             return
         collected = self._exchange.collect(first, self._numbers.actions)
-        # A doubtful number of two digits is right as long as the brick has less than 256 actions: a repeated digit
-        # makes it longer, a lost one makes it end here.
-        if collected is None or not (collected.sure or collected.digits == 2):
+        # Of a brick without memory, a doubtful number of two digits is right as long as there are less than 256 actions:
+        # a repeated digit makes it longer, a lost one makes it end here.
+        if collected is None or not (collected.sure or self._remembers or collected.digits == 2):
             self.statistics.lost += 1
             logger.warning("%s: an exogenous action was lost on the way (first digit %d)", self._tower.name, first)
             return
         self._exchange.events.append(collected.number)
         self.statistics.events += 1
 
-    def _outlive_stale_answers(self) -> None:
-        """After something was sent twice: let the brick say what it has to say before the next action."""
-        for _ in range(PROBES):
-            if not self._exchange.stale or self._request():
-                return
+    def _mark_off(self, first: int) -> None:
+        """See to it that the next action is taken for a new one, and its answer for its own: poll in between.
+
+        That is needed after something was sent twice, since the brick may answer twice, and before a message that a
+        brick which remembers could take for the one before it.
+        """
+        if self._exchange.stale or self._exchange.repeats(first, NEW_AFTER):
+            for _ in range(PROBES):
+                if self._request():
+                    return
 
     def _count_silence(self, answered: bool) -> None:
         """SilentBrickError after many polls without an answer."""

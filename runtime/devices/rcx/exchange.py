@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Container
 from dataclasses import dataclass
 
-from golc.runtime.devices.rcx.errors import NonsenseError, PanicError
+from golc.runtime.devices.rcx.errors import InterruptedExchangeError, NonsenseError, PanicError
 from golc.runtime.devices.rcx.numbers import MAXIMUM, ClassicParameters, Digits
 from golc.runtime.devices.rcx.timing import BrickStatistics, Timing
 from golc.runtime.devices.rcx.tower import AWAKE_SECONDS, Tower
@@ -20,8 +20,8 @@ logger = logging.getLogger(__name__)
 
 LONGEST = 16
 """Digits after which a number counts as endless: one for each bit is enough in any base."""
-PATIENT_ASKS = 2
-"""Number of times that *continue* is sent before what it should bring counts as lost."""
+SLICE = 0.25
+"""Seconds between two looks at whether the exchange is to be given up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,7 +36,12 @@ class Collected:
 class Exchange:
     """Asks a brick and sorts what is heard; ``stale`` while answers to something sent twice may be under way."""
 
-    def __init__(self, tower: Tower, numbers: ClassicParameters, timing: Timing, statistics: BrickStatistics) -> None:
+    def __init__(
+        self, tower: Tower, numbers: ClassicParameters, timing: Timing, statistics: BrickStatistics, asks: int
+    ) -> None:
+        self.interrupted = False
+        self.asks = asks
+        """Number of times that *continue* is sent before what it should bring counts as lost."""
         self.events: deque[int] = deque()
         self.nonsense: list[int] = []
         self.stale = False
@@ -44,13 +49,25 @@ class Exchange:
         self._numbers = numbers
         self._timing = timing
         self._statistics = statistics
+        self._last_sent: int | None = None
+        self._last_sent_at = float("-inf")
         self._late_digits: list[int] = []
         self._late_until = float("-inf")
 
+    def send(self, number: int) -> float:
+        """Send ``number``; the simulated time at which its last bit is out."""
+        self._last_sent = number
+        self._last_sent_at = self._tower.send(number)
+        return self._last_sent_at
+
+    def repeats(self, number: int, after: float) -> bool:
+        """Whether ``number`` is also what this brick was sent last, and that is longer ago than ``after`` seconds."""
+        return number == self._last_sent and self._tower.now() - self._last_sent_at > after
+
     def ask(self, number: int, accept: Container[int], wait: float) -> int | None:
         """Send ``number`` once; the first acceptable answer within ``wait``, or None. PanicError, NonsenseError."""
-        deadline = self._tower.send(number) + wait
-        while (heard := self._tower.receive(deadline)) is not None:
+        deadline = self.send(number) + wait
+        while (heard := self._hear(deadline)) is not None:
             if heard in accept:
                 self.nonsense.clear()
                 return heard
@@ -58,6 +75,15 @@ class Exchange:
             if heard != number:
                 self._stray(heard)
         return None
+
+    def _hear(self, deadline: float) -> int | None:
+        """The next message until the deadline; looks up now and then, since another thread may have had enough."""
+        while True:
+            if self.interrupted:
+                raise InterruptedExchangeError("the exchange with the brick was interrupted")
+            heard = self._tower.receive(min(deadline, self._tower.now() + SLICE))
+            if heard is not None or self._tower.now() >= deadline:
+                return heard
 
     def collect(self, first: int, kind: Digits) -> Collected | None:
         """The number that begins with the digit ``first``: asks for the others; None if one never comes."""
@@ -79,7 +105,7 @@ class Exchange:
         return Collected(number, len(messages), sure and number <= MAXIMUM)
 
     def _next_digit(self, kind: Digits) -> int | None:
-        for attempt in range(PATIENT_ASKS):
+        for attempt in range(self.asks):
             self._statistics.resent += attempt > 0
             answer = self.ask(self._numbers.proceed, kind.all, self._timing.answer)
             if answer is not None:
@@ -103,6 +129,7 @@ class Exchange:
 
     def forget(self) -> None:
         """Start afresh: nothing is under way any more. Exogenous actions that were received stay."""
+        self.interrupted = False
         self.nonsense.clear()
         self.stale = False
         self._late_digits.clear()
@@ -120,7 +147,7 @@ class Exchange:
         elif self.stale and self._is_reply(heard):
             # The brick does something for the second time; it must not be left alone with that.
             if heard == self._numbers.more_time or heard in self._numbers.values.more:
-                self._tower.send(self._numbers.proceed)
+                self.send(self._numbers.proceed)
         else:
             self._count_nonsense(heard)
 
@@ -130,7 +157,7 @@ class Exchange:
     def _late_digit(self, heard: int) -> None:
         self._late_digits.append(heard)
         if heard in self._numbers.actions.more and len(self._late_digits) < LONGEST:
-            self._tower.send(self._numbers.proceed)
+            self.send(self._numbers.proceed)
             self.expect_late()
             return
         self.events.append(self._numbers.actions.join(self._late_digits))

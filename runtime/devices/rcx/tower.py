@@ -9,10 +9,12 @@ from __future__ import annotations
 
 import logging
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Self
 
+from golc.runtime.devices.rcx.interruptible import Interruptible
 from golc.runtime.devices.rcx.packets import BYTE_SECONDS, MESSAGE, MESSAGE_SECONDS, Decoder, encode_message
 from golc.runtime.devices.rcx.transport import Clock, SerialPort, Transport
 
@@ -42,7 +44,7 @@ class TowerStatistics:
     heard: int = 0
     """User messages received, echoes not counted."""
     echoes: int = 0
-    """Messages that came back as echoes."""
+    """Times that what was sent came back as an echo."""
     wakes: int = 0
     """Times that the tower had to be woken."""
     noise: int = 0
@@ -126,6 +128,8 @@ class Tower:
 
     def _wake(self) -> None:
         self.statistics.wakes += 1
+        self._settle_echo()
+        self._expected = WAKE
         self._transport.write(WAKE)
         self._listen(self.now() + WAKE_SECONDS)
 
@@ -159,10 +163,11 @@ class Tower:
         self.statistics.noise = self._decoder.noise
 
 
-def open_tower(port: str, speed: float = 1.0) -> Tower:
+def open_tower(port: str, speed: float = 1.0, interrupted: Callable[[], bool] | None = None) -> Tower:
     """An open tower on a port: a tty, a pty's path, a pySerial URL, or ``usb:`` and the path of a character device.
 
-    ``speed`` is the number of simulated seconds in a real one. Raises a LinkError with help if the port cannot be
+    ``speed`` is the number of simulated seconds in a real one; an exchange is given up when ``interrupted`` says so.
+    Raises a LinkError with help if the port cannot be
     opened: missing, not permitted, busy, not a tty.
     """
     clock = Clock(speed)
@@ -174,6 +179,6 @@ def open_tower(port: str, speed: float = 1.0) -> Tower:
         transport = CharacterDevice(port.removeprefix(USB), clock)
     else:
         transport = SerialPort(port, clock)
-    tower = Tower(transport)
+    tower = Tower(transport if interrupted is None else Interruptible(transport, interrupted))
     tower.open()
     return tower
