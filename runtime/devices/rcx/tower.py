@@ -167,8 +167,7 @@ def open_tower(port: str, speed: float = 1.0, interrupted: Callable[[], bool] | 
     """An open tower on a port: a tty, a pty's path, a pySerial URL, or ``usb:`` and the path of a character device.
 
     ``speed`` is the number of simulated seconds in a real one; an exchange is given up when ``interrupted`` says so.
-    Raises a LinkError with help if the port cannot be
-    opened: missing, not permitted, busy, not a tty.
+    Raises a LinkError with help if the port cannot be opened: missing, not permitted, busy, not a tty.
     """
     clock = Clock(speed)
     transport: Transport
