@@ -1,0 +1,13 @@
+"""What golc finds in a theory that elaboration alone does not see; one family of rules a module."""
+
+from __future__ import annotations
+
+from golc.diagnostics import Diagnostic, Findings
+from golc.syntax import tree
+from golc.theory.theory import BasicActionTheory
+
+
+def check(theory: BasicActionTheory, file: tree.File) -> list[Diagnostic]:
+    """Every finding about a theory and the file that describes it, family by family."""
+    findings = Findings()
+    return findings.diagnostics

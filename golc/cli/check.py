@@ -1,0 +1,86 @@
+"""``golc check``: every finding about some domain files."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+import click
+
+from golc.cli.common import Console, console_options, constants_option
+
+if TYPE_CHECKING:
+    from golc.diagnostics import Diagnostic
+    from golc.theory.theory import BasicActionTheory
+
+
+@click.command()
+@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", help="How to write the findings.")
+@click.option("--strict", is_flag=True, help="Warnings count as errors do.")
+@constants_option
+@console_options
+def command(files: tuple[str, ...], form: str, strict: bool, constants: Mapping[str, str], console: Console) -> int:
+    """Find what is wrong with domain files, without running them.
+
+    The findings go to stdout, a summary to stderr. Ends with 1 if there is an error (with --strict: or a warning).
+
+    \b
+    golc check examples/delivery/delivery.gl
+    golc check --strict -D floors=12 elevator.gl
+    """
+    from golc.diagnostics import Severity
+    from golc.loading import examine
+
+    findings = []
+    for file in files:
+        theory, found = examine(file, constants)
+        findings.extend(found)
+        if form == "text":
+            _write(console, found)
+        if console.verbosity > 0:
+            console.err(f"{file}: {_contents(theory)}")
+    errors = sum(finding.severity is Severity.ERROR for finding in findings)
+    warnings = sum(finding.severity is Severity.WARNING for finding in findings)
+    if form == "json":
+        _write_json(console, findings, errors, warnings)
+    console.note(_summary(len(files), errors, warnings))
+    return int(errors > 0 or (strict and warnings > 0))
+
+
+def _write(console: Console, findings: list[Diagnostic]) -> None:
+    import sys
+
+    from golc.rendering import render
+
+    for finding in findings:
+        console.out(render(finding, console.colored(sys.stdout)) + "\n")
+
+
+def _write_json(console: Console, findings: list[Diagnostic], errors: int, warnings: int) -> None:
+    from golc.rendering import to_json
+
+    found = {"findings": [to_json(finding) for finding in findings], "errors": errors, "warnings": warnings}
+    console.out(json.dumps(found, indent=2))
+
+
+def _summary(files: int, errors: int, warnings: int) -> str:
+    found = [_count(number, what) for number, what in ((errors, "error"), (warnings, "warning")) if number]
+    return f"checked {_count(files, 'file')}: {', '.join(found) or 'nothing found'}"
+
+
+def _contents(theory: BasicActionTheory | None) -> str:
+    if theory is None:
+        return "not a theory"
+    parts = (
+        (theory.fluents, "fluent"),
+        (theory.actions, "action"),
+        (theory.procedures, "procedure"),
+        (theory.devices, "device"),
+    )
+    return f"domain {theory.name} with " + ", ".join(_count(len(part), what) for part, what in parts)
+
+
+def _count(number: int, what: str) -> str:
+    return f"{number} {what}{'s' * (number != 1)}"
