@@ -2,7 +2,7 @@
 
 from golc.runtime.devices.rcx.brick import DEFAULT_TIMEOUT, Brick
 from golc.runtime.devices.rcx.errors import (
-    InterruptedExchangeError,
+    InterruptedLinkError,
     LinkError,
     NonsenseError,
     NotATowerError,
@@ -26,7 +26,7 @@ __all__ = [
     "Brick",
     "BrickStatistics",
     "ClassicParameters",
-    "InterruptedExchangeError",
+    "InterruptedLinkError",
     "LinkError",
     "NonsenseError",
     "NotATowerError",

@@ -101,7 +101,8 @@ class Brick:
 
         ``timeout`` is in simulated seconds. With ``repeat=False`` the action is never sent a second time once the brick
         may have begun it: a lost message is then an error. Raises SilentBrickError, OverdueError, PanicError (after an
-        abort), NonsenseError, PortGoneError, and ParameterError for a number that does not fit the wire.
+        abort), NonsenseError, PortGoneError, InterruptedLinkError, and ParameterError for a number that does not
+        fit the wire.
         """
         parts = self._numbers.actions.split(number)
         with self._abort_on_panic():
@@ -126,19 +127,12 @@ class Brick:
                 self._count_silence(self._request())
         return self._exchange.events.popleft() if self._exchange.events else None
 
-    def interrupt(self) -> None:
-        """Make the call that is under way in another thread, or the next one, raise InterruptedExchangeError soon.
-
-        That lasts until ``abort`` is called, which has to follow: what the brick does is then unknown.
-        """
-        self._exchange.interrupted = True
-
     def abort(self, confirm: bool = True) -> None:
         """Tell the brick to stop all behaviours, until it answers a request again.
 
         With ``confirm=False`` the message is sent once and nothing is waited for. Raises SilentBrickError if the brick
-        confirms nothing, PanicError if it goes on panicking, PortGoneError. May be called after an exception, an
-        interrupt included, has ended another call.
+        confirms nothing, PanicError if it goes on panicking, PortGoneError. May be called after any exception,
+        KeyboardInterrupt included, has ended another call.
         """
         self.statistics.aborts += 1
         self._exchange.forget()
@@ -263,7 +257,7 @@ class Brick:
         if first == self._numbers.none:
             return
         collected = self._exchange.collect(first, self._numbers.actions)
-        # Of a brick without memory, a doubtful number of two digits is right as long as there are less than 256 actions:
+        # From a brick without memory, two doubtful digits are right as long as it has less than 256 actions:
         # a repeated digit makes it longer, a lost one makes it end here.
         if collected is None or not (collected.sure or self._remembers or collected.digits == 2):
             self.statistics.lost += 1

@@ -49,13 +49,9 @@ class NonsenseError(LinkError):
     """The brick, or another one, sends numbers that mean nothing in this place."""
 
 
-class InterruptedExchangeError(LinkError):
+class InterruptedLinkError(LinkError):
     """The exchange was given up because another thread wanted so."""
 
 
 class ParameterError(LinkError):
     """The numbers given to the link cannot go over this wire."""
-
-
-class InterruptedLinkError(LinkError):
-    """Somebody wants an exchange given up, so that the brick can be told something else."""

@@ -11,7 +11,7 @@ from collections import deque
 from collections.abc import Container
 from dataclasses import dataclass
 
-from golc.runtime.devices.rcx.errors import InterruptedExchangeError, NonsenseError, PanicError
+from golc.runtime.devices.rcx.errors import NonsenseError, PanicError
 from golc.runtime.devices.rcx.numbers import MAXIMUM, ClassicParameters, Digits
 from golc.runtime.devices.rcx.timing import BrickStatistics, Timing
 from golc.runtime.devices.rcx.tower import AWAKE_SECONDS, Tower
@@ -20,8 +20,6 @@ logger = logging.getLogger(__name__)
 
 LONGEST = 16
 """Digits after which a number counts as endless: one for each bit is enough in any base."""
-SLICE = 0.25
-"""Seconds between two looks at whether the exchange is to be given up."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +37,6 @@ class Exchange:
     def __init__(
         self, tower: Tower, numbers: ClassicParameters, timing: Timing, statistics: BrickStatistics, asks: int
     ) -> None:
-        self.interrupted = False
         self.asks = asks
         """Number of times that *continue* is sent before what it should bring counts as lost."""
         self.events: deque[int] = deque()
@@ -67,7 +64,7 @@ class Exchange:
     def ask(self, number: int, accept: Container[int], wait: float) -> int | None:
         """Send ``number`` once; the first acceptable answer within ``wait``, or None. PanicError, NonsenseError."""
         deadline = self.send(number) + wait
-        while (heard := self._hear(deadline)) is not None:
+        while (heard := self._tower.receive(deadline)) is not None:
             if heard in accept:
                 self.nonsense.clear()
                 return heard
@@ -75,15 +72,6 @@ class Exchange:
             if heard != number:
                 self._stray(heard)
         return None
-
-    def _hear(self, deadline: float) -> int | None:
-        """The next message until the deadline; looks up now and then, since another thread may have had enough."""
-        while True:
-            if self.interrupted:
-                raise InterruptedExchangeError("the exchange with the brick was interrupted")
-            heard = self._tower.receive(min(deadline, self._tower.now() + SLICE))
-            if heard is not None or self._tower.now() >= deadline:
-                return heard
 
     def collect(self, first: int, kind: Digits) -> Collected | None:
         """The number that begins with the digit ``first``: asks for the others; None if one never comes."""
@@ -129,7 +117,6 @@ class Exchange:
 
     def forget(self) -> None:
         """Start afresh: nothing is under way any more. Exogenous actions that were received stay."""
-        self.interrupted = False
         self.nonsense.clear()
         self.stale = False
         self._late_digits.clear()
