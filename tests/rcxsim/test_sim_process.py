@@ -1,0 +1,270 @@
+"""``golc sim`` as a process: a real pty, real TCP, signals, bad input."""
+
+from __future__ import annotations
+
+import json
+import os
+import select
+import signal
+import socket
+import subprocess
+import sys
+import termios
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from golc.diagnostics import DeviceError
+from golc.runtime.rcxsim.process import BrickOptions, spawn
+
+Sim = Callable[..., "subprocess.Popen[str]"]
+POLL = bytes.fromhex("55 ff 00 f7 08 53 ac 4a b5")
+NONE = bytes.fromhex("55 ff 00 f7 08 54 ab 4b b4")
+GO = bytes.fromhex("55 ff 00 f7 08 21 de 18 e7")
+ZERO = bytes.fromhex("55 ff 00 f7 08 40 bf 37 c8")
+
+
+def ready(child: subprocess.Popen[str]) -> list[str]:
+    """The words of the line that a simulator prints when it is ready."""
+    assert child.stdout is not None
+    return child.stdout.readline().split()
+
+
+def ask(descriptor: int, data: bytes, count: int) -> bytes:
+    """Write bytes and read so many back, within 20 seconds."""
+    os.write(descriptor, data)
+    received, deadline = b"", time.monotonic() + 20
+    while len(received) < count and (left := deadline - time.monotonic()) > 0:
+        if select.select([descriptor], [], [], left)[0]:
+            received += os.read(descriptor, count - len(received))
+    return received
+
+
+def ended(child: subprocess.Popen[str]) -> tuple[int, str]:
+    """Exit code and what was said on stderr."""
+    _, complaints = child.communicate(timeout=20)
+    return child.returncode, complaints
+
+
+def gone(pid: int) -> bool:
+    """Whether a process is no more, waiting for it up to 20 seconds."""
+    deadline = time.monotonic() + 20
+    while time.monotonic() < deadline:
+        try:
+            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
+        except FileNotFoundError:
+            return True
+        if state == "Z":
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def test_pty_with_echo(sim: Sim, lift_file: Path) -> None:
+    kind, path = ready(sim(lift_file, "--air-time", 0))
+    assert kind == "pty"
+    tower = os.open(path, os.O_RDWR | os.O_NOCTTY)
+    try:
+        assert ask(tower, POLL, 18) == POLL + NONE
+        assert ask(tower, GO, 18) == GO + ZERO
+    finally:
+        os.close(tower)
+
+
+def test_pty_is_raw(sim: Sim, lift_file: Path) -> None:
+    _, path = ready(sim(lift_file))
+    tower = os.open(path, os.O_RDWR | os.O_NOCTTY)
+    try:
+        iflag, oflag, _, lflag, *_ = termios.tcgetattr(tower)
+        assert not lflag & (termios.ECHO | termios.ICANON | termios.ISIG)
+        assert not iflag & (termios.ICRNL | termios.IXON)
+        assert not oflag & termios.OPOST
+    finally:
+        os.close(tower)
+
+
+def test_clients_come_and_go(sim: Sim, lift_file: Path) -> None:
+    _, path = ready(sim(lift_file, "--air-time", 0, "--no-echo"))
+    for _ in range(3):
+        tower = os.open(path, os.O_RDWR | os.O_NOCTTY)
+        try:
+            assert ask(tower, POLL, 9) == NONE
+        finally:
+            os.close(tower)
+
+
+def test_tcp_serves_one_client_after_the_other(sim: Sim, lift_file: Path) -> None:
+    kind, address = ready(sim(lift_file, "--tcp", "127.0.0.1:0", "--air-time", 0, "--no-echo"))
+    assert kind == "tcp"
+    host, _, port = address.rpartition(":")
+    for _ in range(2):
+        with socket.create_connection((host, int(port)), 20) as first:
+            assert ask(first.fileno(), POLL, 9) == NONE
+            with socket.create_connection((host, int(port)), 20) as second:
+                second.settimeout(20)
+                assert second.recv(1) == b""
+            assert ask(first.fileno(), POLL, 9) == NONE
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_ends_cleanly_on_a_signal_and_removes_its_link(
+    sim: Sim, lift_file: Path, tmp_path: Path, number: signal.Signals
+) -> None:
+    link = tmp_path / "brick"
+    child = sim(lift_file, "--pty", link)
+    assert ready(child) == ["pty", str(link)]
+    assert link.is_char_device()
+    child.send_signal(number)
+    assert ended(child) == (0, "")
+    assert not link.is_symlink()
+
+
+def test_link_left_behind_is_replaced(sim: Sim, lift_file: Path, tmp_path: Path) -> None:
+    link = tmp_path / "brick"
+    link.symlink_to("/dev/pts/no-such-terminal")
+    ready(sim(lift_file, "--pty", link))
+    assert link.is_char_device()
+
+
+def test_trace_is_json_lines(sim: Sim, lift_file: Path, tmp_path: Path) -> None:
+    trace = tmp_path / "trace.jsonl"
+    child = sim(lift_file, "--air-time", 0, "--no-echo", "--trace", trace)
+    tower = os.open(ready(child)[1], os.O_RDWR | os.O_NOCTTY)
+    try:
+        ask(tower, GO, 9)
+    finally:
+        os.close(tower)
+    records = [json.loads(line) for line in trace.read_text().splitlines()]
+    assert [record["what"] for record in records] == ["heard", "began", "started", "sent"]
+    assert records[1]["action"] == "go"
+    assert records[3]["message"] == 64
+
+
+def test_trouble_is_told_on_stderr(sim: Sim, lift_file: Path) -> None:
+    child = sim(lift_file, "--air-time", 0, "--no-echo")
+    tower = os.open(ready(child)[1], os.O_RDWR | os.O_NOCTTY)
+    try:
+        assert ask(tower, bytes.fromhex("55 ff 00 f7 08 27 d8 1e e1"), 9) == ZERO
+    finally:
+        os.close(tower)
+    child.send_signal(signal.SIGTERM)
+    assert "number 7, which the brick has no action for" in ended(child)[1]
+
+
+def test_speed_shortens_everything(sim: Sim, lift_file: Path) -> None:
+    _, path = ready(sim(lift_file, "--speed", 100, "--no-echo"))
+    tower = os.open(path, os.O_RDWR | os.O_NOCTTY)
+    try:
+        start = time.monotonic()
+        ask(tower, bytes.fromhex("55 ff 00 f7 08 20 df 17 e8"), 9)
+        assert time.monotonic() - start < 0.4
+    finally:
+        os.close(tower)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "complaint"),
+    [
+        (["no-such-file.gl"], 1, "no-such-file.gl"),
+        (["{lift}", "--pty", "/proc/brick"], 4, "cannot make the link /proc/brick"),
+        (["{lift}", "--pty", "{lift}"], 4, "File exists"),
+        (["{lift}", "--tcp", "127.0.0.1"], 2, "HOST:PORT"),
+        (["{lift}", "--tcp", "127.0.0.1:70000"], 2, "HOST:PORT"),
+        (["{lift}", "--tcp", "no-such-host.invalid:0"], 4, "cannot listen on no-such-host.invalid:0"),
+        (["{lift}", "--tcp", "127.0.0.1:{port}"], 4, "Address already in use"),
+        (["{lift}", "--tcp", "127.0.0.1:0", "--pty", "x"], 2, "exclude each other"),
+        (["{lift}", "--loss", "1.5"], 2, "--loss"),
+        (["{lift}", "--speed", "0"], 2, "--speed"),
+        (["{lift}", "--events", "/no/such/script"], 1, "/no/such/script"),
+        (["{lift}", "--trace", "/no/such/trace"], 1, "/no/such/trace"),
+        (["{lift}", "--what"], 2, "--what"),
+        ([], 2, "FILE"),
+    ],
+)
+def test_bad_input(sim: Sim, lift_file: Path, arguments: list[str], code: int, complaint: str) -> None:
+    with socket.create_server(("127.0.0.1", 0)) as taken:
+        port = taken.getsockname()[1]
+        result = ended(sim(*(text.format(lift=lift_file, port=port) for text in arguments)))
+    assert result[0] == code
+    assert complaint in result[1]
+    assert "Traceback" not in result[1]
+
+
+def test_file_with_errors(sim: Sim, tmp_path: Path) -> None:
+    file = tmp_path / "wrong.gl"
+    file.write_text("domain wrong\n\nfluent f: nothing = 1\n")
+    code, complaint = ended(sim(file))
+    assert code == 1
+    assert "nothing" in complaint
+
+
+def test_file_without_a_brick(sim: Sim, tmp_path: Path) -> None:
+    file = tmp_path / "none.gl"
+    file.write_text("domain idle\n\naction nod\n\ndevice self:\n    nod\n")
+    code, complaint = ended(sim(file))
+    assert code == 1
+    assert "no brick to simulate" in complaint
+
+
+def test_spawn_gives_a_port_and_closes(lift_file: Path) -> None:
+    with spawn(lift_file, BrickOptions(air_time=0, echo=False)) as brick:
+        tower = os.open(brick.port, os.O_RDWR | os.O_NOCTTY)
+        try:
+            assert ask(tower, POLL, 9) == NONE
+        finally:
+            os.close(tower)
+        pid = brick.pid
+    assert gone(pid)
+
+
+def test_spawn_passes_every_option(lift_file: Path, tmp_path: Path) -> None:
+    script = tmp_path / "script.events"
+    script.write_text("at 0 s: bell\n")
+    options = BrickOptions(
+        speed=50, air_time=0.5, loss=0.0, garble=0.0, seed=5, events=script, trace=tmp_path / "trace", echo=False
+    )
+    with spawn(lift_file, options) as brick:
+        tower = os.open(brick.port, os.O_RDWR | os.O_NOCTTY)
+        try:
+            ask(tower, POLL, 9)
+            assert ask(tower, POLL, 9) == bytes.fromhex("55 ff 00 f7 08 3a c5 31 ce")
+        finally:
+            os.close(tower)
+    assert (tmp_path / "trace").read_text()
+
+
+def test_spawn_says_why_it_failed(tmp_path: Path) -> None:
+    with pytest.raises(DeviceError, match=r"missing\.gl"):
+        spawn(tmp_path / "missing.gl")
+
+
+def test_spawn_gives_up_at_its_deadline(lift_file: Path) -> None:
+    with pytest.raises(DeviceError, match="did not start"):
+        spawn(lift_file, within=0.001)
+
+
+PARENT = """
+import sys, time
+from golc.runtime.rcxsim.process import spawn
+brick = spawn(sys.argv[1])
+print(brick.pid, flush=True)
+time.sleep(600)
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
+def test_child_dies_with_its_parent(lift_file: Path, number: signal.Signals) -> None:
+    with subprocess.Popen([sys.executable, "-c", PARENT, str(lift_file)], stdout=subprocess.PIPE, text=True) as parent:
+        assert parent.stdout is not None
+        pid = int(parent.stdout.readline())
+        parent.send_signal(number)
+        parent.wait(20)
+        assert gone(pid)
+
+
+def test_child_survives_the_terminal_s_interrupt(lift_file: Path) -> None:
+    with spawn(lift_file) as brick:
+        assert os.getsid(brick.pid) != os.getsid(0)
+        assert os.getpgid(brick.pid) != os.getpgid(0)
