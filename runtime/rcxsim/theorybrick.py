@@ -57,6 +57,7 @@ class TheoryBrick:
             return
         action, args = decoded
         self._trace.tell(now, "began", action=show_call(action, args), number=number)
+        self._world.catch_up_with(action, args, now)
         self._events.began(action, args, now)
         if isinstance(entry.behaviour, ByStart):
             self._finish(entry, args, now)

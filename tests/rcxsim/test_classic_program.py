@@ -66,7 +66,8 @@ class Bench:
 
     def wait(self, seconds: float) -> list[int]:
         """What the brick sends in the seconds that follow."""
-        until, sent = self.now + seconds, []
+        until = self.now + seconds
+        sent: list[int] = []
         while (due := self.program.due()) is not None and due <= until:
             self.now = due
             sent += self.program.tick(due)
