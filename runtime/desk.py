@@ -21,6 +21,10 @@ class WrongAnswerError(Exception):
     """A line that is meant as an answer and is none; the text says why."""
 
 
+class GivenUpError(DeviceError):
+    """A question was given up, because something else must come first."""
+
+
 class Desk:
     """Asks the operator one question at a time.
 
@@ -96,7 +100,7 @@ class Desk:
         with self._changed:
             self._changed.wait_for(lambda: self._lines or self._interrupted or not self._open)
             if self._interrupted:
-                raise DeviceError("the question was given up")
+                raise GivenUpError("the question was given up")
             if not self._lines:
                 raise DeviceError(
                     "nobody is there to answer: standard input has ended",

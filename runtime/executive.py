@@ -15,10 +15,10 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
+from golc.planning.planner import Executable
 from golc.program.blame import Blocked as Why
 from golc.program.labels import Abort, Act, Say, Silent, Transition, Wait
 from golc.program.nodes import Node
-from golc.program.step import Machine
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
 from golc.runtime.ending import release, verdict_on
@@ -63,35 +63,37 @@ class Executive(Intake):
 
     def __init__(
         self,
-        machine: Machine,
+        executable: Executable,
         router: Router,
         inbox: Inbox,
         sources: Sequence[Source] = (),
         policy: Policy | None = None,
         clock: Clock | None = None,
     ) -> None:
-        super().__init__(machine, inbox, router.devices, policy or Policy(), clock)
+        clock = clock or Clock(time.monotonic, time.monotonic())
+        super().__init__(executable.dynamics, inbox, router.devices, policy or Policy(), clock)
+        self.machine = executable.machine
+        self._node = executable.node
         self._router = router
         self._sources = tuple(sources)
         self._failed: set[tuple[str, Args]] = set()
         """The actions that have failed and are not to be tried again before something changes."""
         self._last_failure: DeviceError | None = None
 
-    def run(self, procedure: str = "control", args: Args = ()) -> Outcome:
-        """Execute a procedure to its end; the devices are told to stop whatever happens.
+    def run(self) -> Outcome:
+        """Execute the program to its end; the devices are told to stop whatever happens. An executive runs once.
 
         Raises ``ProgramError`` if the program fails and ``DeviceError`` if the world does.
         """
         opened: list[Device] = []
         try:
-            node = self.machine.start(procedure, args)
             for device in self._devices:
                 device.open()
                 opened.append(device)
-            self.tell(Started(self.clock.now(), procedure, args, self.state))
+            self.tell(Started(self.clock.now(), self.state))
             for source in self._sources:
                 source.start()
-            end, message = self._loop(node)
+            end, message = self._loop(self._node)
         except BaseException as error:
             self._finish(opened, *verdict_on(error))
             raise

@@ -16,10 +16,10 @@ from golc.diagnostics import Code, Diagnostic, Findings, Source, Span
 from golc.runtime.calls import Call, did_you_mean, read_exogenous
 from golc.runtime.clock import Clock
 from golc.runtime.desk import Desk
+from golc.runtime.happenings import Begun, Happening
 from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Reply, Report
 from golc.runtime.schedule import Player, Schedule
 from golc.theory.theory import Action, BasicActionTheory
-from golc.theory.types import Value
 
 COMMANDS: Mapping[str, str] = {
     "state": "show the value of every fluent",
@@ -205,11 +205,12 @@ class Timetable:
     def start(self) -> None:
         self._thread.start()
 
-    def performed(self, action: str, args: tuple[Value, ...]) -> None:
+    def observe(self, happening: Happening) -> None:
         """Note that an action begins."""
-        with self._changed:
-            self._player.performed(action, args, self._clock.now())
-            self._changed.notify()
+        if isinstance(happening, Begun):
+            with self._changed:
+                self._player.performed(happening.action, happening.args, happening.time)
+                self._changed.notify()
 
     def close(self) -> None:
         with self._changed:

@@ -27,8 +27,8 @@ class Happening:
 
 @dataclass(frozen=True, slots=True)
 class Started(Happening):
-    procedure: str
-    args: tuple[Value, ...]
+    """The devices are ready."""
+
     state: State
 
 
@@ -161,8 +161,6 @@ class End(Enum):
     """The program is final."""
     IDLE = "idle"
     """It waited for longer than it was told to."""
-    IDLE_BLOCKED = "idle, blocked"
-    """It was blocked for longer than it was told to wait."""
     STOPPED = "stopped"
     """The operator said so."""
     ABORTED = "aborted"

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import time
 from collections import deque
 from collections.abc import Callable, Sequence
 
 from golc.diagnostics import NOWHERE, Code, Diagnostic, ProgramError
 from golc.program.labels import Act
-from golc.program.step import Machine
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device
 from golc.runtime.happenings import Dropped, End, Happening, Observer, Refused, Reset, SourceEnded, TakenIn
 from golc.runtime.inbox import Broken, Closed, Command, Inbox, Item, Refusal, Report
 from golc.runtime.policy import OnImpossible, Policy
+from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.types import show_call
 
@@ -28,15 +27,16 @@ class Intake:
     at any time, by other threads too. Observers may be attached and detached at any time; without any, nothing is told.
     """
 
-    def __init__(self, machine: Machine, inbox: Inbox, devices: Sequence[Device], policy: Policy, clock: Clock | None):
-        self.machine = machine
-        self.dynamics = machine.dynamics
+    def __init__(
+        self, dynamics: Dynamics, inbox: Inbox, devices: Sequence[Device], policy: Policy, clock: Clock
+    ) -> None:
+        self.dynamics = dynamics
         self.state: State = self.dynamics.initial()
         self.actions = 0
         self.exogenous = 0
         self.history: deque[Act | Report] = deque(maxlen=REMEMBERED)
         self.observers: list[Observer] = []
-        self.clock = clock or Clock(time.monotonic, time.monotonic())
+        self.clock = clock
         self._inbox = inbox
         self._devices = tuple(devices)
         self._policy = policy

@@ -81,3 +81,13 @@ constants_option = click.option(
     help="Replace the value of a const; may be repeated.",
 )
 """``-D NAME=VALUE``: the command gets ``constants``, a mapping from names to texts."""
+
+
+def address(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[str, int] | None:
+    """A callback for an option ``HOST:PORT``; port 0 is any free one."""
+    if value is None:
+        return None
+    host, colon, port = value.rpartition(":")
+    if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
+        raise click.BadParameter(f"{value!r} is not of the form HOST:PORT, with a port from 0 (any free one) to 65535")
+    return host.strip("[]"), int(port)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from golc.cli.common import Console, console_options, constants_option
+from golc.cli.common import Console, address, console_options, constants_option
 
 if TYPE_CHECKING:
     from golc.runtime.rcxsim.ports import Port
@@ -24,21 +24,12 @@ FULL = {
 """What is said on stderr of records that mean trouble; see also ``problem``."""
 
 
-def _address(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[str, int] | None:
-    if value is None:
-        return None
-    host, colon, port = value.rpartition(":")
-    if not colon or not host or not port.isdecimal() or int(port) > 65535:
-        raise click.BadParameter(f"{value!r} is not of the form HOST:PORT, with a port from 0 (any free one) to 65535")
-    return host.strip("[]"), int(port)
-
-
 @click.command()
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option(
     "--pty", "link", type=click.Path(path_type=Path), metavar="PATH", help="Make a link to the terminal here."
 )
-@click.option("--tcp", metavar="HOST:PORT", callback=_address, help="Listen here instead; port 0 is any free one.")
+@click.option("--tcp", metavar="HOST:PORT", callback=address, help="Listen here instead; port 0 is any free one.")
 @click.option(
     "--speed",
     type=click.FloatRange(0.01, 1000),

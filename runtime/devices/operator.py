@@ -71,7 +71,7 @@ def _enter(line: str) -> None:
 def _read_value(line: str, type_: Type, theory: BasicActionTheory, binding: Binding) -> Value:
     """The value of a type that the operator typed; a binding's table may give numbers another meaning."""
     if line.isdecimal() and (value := translated(binding, int(line))) in type_:
-        return value  # type: ignore[return-value]
+        return value
     findings = Findings()
     source = Source("<stdin>", line)
     read = read_value(theory, type_, Span(source, 0, len(line)), findings) if line else None

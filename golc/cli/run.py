@@ -1,0 +1,151 @@
+"""``golc run``: online execution."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from golc.cli.common import Console, address, console_options, constants_option
+
+if TYPE_CHECKING:
+    from golc.diagnostics import Diagnostic
+    from golc.runtime.session import Voice
+
+
+@click.command(name="run", short_help="Run a program online, on a brick or a simulated one.")
+@click.argument("file", type=click.Path())
+@click.argument("procedure", metavar="[PROC]", default="control")
+@click.option("--port", metavar="P", help="A tty, a pty, a pySerial URL, usb:PATH, or `sim`, which is the default.")
+@click.option(
+    "--link",
+    type=click.Choice(["auto", "classic"]),
+    default="auto",
+    show_default=True,
+    help="How to talk to the brick; auto is classic, the protocol of Legolog.",
+)
+@click.option("--events", type=click.Path(), metavar="FILE", help="A timed script of exogenous actions.")
+@click.option("--listen", metavar="HOST:PORT", callback=address, help="Take exogenous actions over TCP too.")
+@click.option("--journal", type=click.Path(), metavar="FILE", help="Write everything that happens to a new file.")
+@click.option(
+    "--stop-when-idle",
+    type=click.FloatRange(min=0),
+    metavar="S",
+    help="End with success when the program has waited for S seconds.",
+)
+@click.option(
+    "--on-impossible-exog",
+    "on_impossible",
+    type=click.Choice(["apply", "drop", "stop"]),
+    default="apply",
+    show_default=True,
+    help="What to do about an exogenous action that the theory thinks impossible.",
+)
+@click.option(
+    "--on-failure",
+    type=click.Choice(["ask", "retry", "next", "stop"]),
+    help="What to do about an action that its device cannot do: ask (the default at a terminal), or stop.",
+)
+@click.option("--step", is_flag=True, help="Ask before each action.")
+@click.option(
+    "--speed",
+    type=click.FloatRange(0.01, 1000),
+    default=1.0,
+    show_default=True,
+    help="How many simulated seconds pass in one; a simulated brick needs the same.",
+)
+@click.option("--seed", type=int, default=0, show_default=True, help="Of what the simulated brick leaves to chance.")
+@constants_option
+@console_options
+def command(
+    console: Console,
+    file: str,
+    procedure: str,
+    port: str | None,
+    link: str,
+    events: str | None,
+    listen: tuple[str, int] | None,
+    journal: str | None,
+    stop_when_idle: float | None,
+    on_impossible: str,
+    on_failure: str | None,
+    step: bool,
+    speed: float,
+    seed: int,
+    constants: Mapping[str, str],
+) -> int:
+    """Run a program of FILE online: decide, have the devices act, and listen to the world.
+
+    PROC is a procedure, with arguments where it takes some; the default is `control`. Without a port golc simulates the
+    brick. Exogenous actions may be typed while it runs, one a line, such as `request_delivery(2, 5)`, and so may the
+    commands !state, !history, !abort (stop what the devices do and go on) and !stop. However the run ends, the brick is
+    told to stop first.
+
+    \b
+    golc run examples/delivery/delivery.gl
+    golc run examples/delivery/delivery.gl --port /dev/ttyUSB0 --journal today.jsonl
+    """
+    import sys
+
+    from golc.loading import load
+    from golc.runtime.calls import read_procedure
+    from golc.runtime.happenings import Remedy
+    from golc.runtime.policy import OnImpossible
+    from golc.runtime.session import Settings, run_online
+
+    theory = load(file, constants)
+    program = read_procedure(theory, procedure)
+    if on_failure is None:
+        on_failure = "ask" if sys.stdin is not None and sys.stdin.isatty() else "stop"
+    settings = Settings(
+        port=port,
+        events=None if events is None else Path(events),
+        listen=listen,
+        journal=None if journal is None else Path(journal),
+        stop_when_idle=stop_when_idle,
+        on_impossible=OnImpossible(on_impossible),
+        on_failure=None if on_failure == "ask" else Remedy(on_failure),
+        step=step,
+        speed=speed,
+        seed=seed,
+        constants=constants,
+    )
+    try:
+        run_online(theory, program, settings, _voice(console))
+    except FileExistsError as error:
+        problem = f"the journal {error} exists already; name another file, or remove that one first"
+        raise click.UsageError(problem) from None
+    return 0
+
+
+def _voice(console: Console) -> Voice:
+    """What the run says goes to stdout, what is wrong to stderr."""
+    import sys
+
+    from golc.rendering import render
+    from golc.runtime.session import Voice
+    from golc.runtime.trace import Style
+
+    encoding = (sys.stdout.encoding or "").lower().replace("-", "")
+    style = Style(console.colored(sys.stdout), unicode=encoding.startswith("utf"))
+
+    def complain(diagnostics: tuple[Diagnostic, ...]) -> None:
+        for diagnostic in diagnostics:
+            console.err(render(diagnostic, color=console.colored(sys.stderr)))
+
+    return Voice(_write, complain, style, console.verbosity)
+
+
+def _write(line: str) -> None:
+    """A line to stdout; where nobody can read it any more, the run is to end."""
+    from golc.diagnostics import DeviceError
+
+    try:
+        print(line, flush=True)
+    except OSError as error:
+        if error.errno in (errno.EPIPE, errno.EIO):
+            raise BrokenPipeError("nobody reads the output any more") from None
+        raise DeviceError(f"cannot write to standard output: {error.strerror}") from error

@@ -1,0 +1,101 @@
+"""From the device blocks of a theory to devices."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from golc.diagnostics import Code, DeviceError, Diagnostic, Findings, UserError
+from golc.nqc.numbering import ActionMap, number_device
+from golc.runtime.desk import Desk
+from golc.runtime.devices.base import Device
+from golc.runtime.devices.bricks import Link, RcxDevice
+from golc.runtime.devices.host import Host
+from golc.runtime.devices.itself import Itself
+from golc.runtime.devices.operator import Operator, Speak
+from golc.theory import theory as th
+from golc.theory.theory import BasicActionTheory, Binding
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What devices need that the theory does not say: the operator, their words, and the port of the bricks."""
+
+    desk: Desk
+    speak: Speak
+    link: Link | None
+
+
+def build_devices(theory: BasicActionTheory, surroundings: Surroundings) -> list[Device]:
+    """All devices of a theory, in the order of declaration, none of them open.
+
+    Raises ``UserError`` if an action has no device or the numbers of a brick make no sense.
+    """
+    maps = brick_maps(theory)
+    devices = [_build(theory, device, maps, surroundings) for device in theory.devices]
+    _check_complete(theory, maps)
+    return devices
+
+
+def brick_maps(theory: BasicActionTheory) -> dict[str, ActionMap]:
+    """The numbers of each brick by its name."""
+    findings = Findings()
+    bricks = [device for device in theory.devices if device.kind == "rcx"]
+    maps = {device.name: number_device(theory, device, findings) for device in bricks}
+    if findings.has_errors:
+        raise UserError(*findings.diagnostics)
+    return maps
+
+
+def _build(
+    theory: BasicActionTheory, device: th.Device, maps: dict[str, ActionMap], surroundings: Surroundings
+) -> Device:
+    bindings = device.bindings or tuple(_implied(theory, device))
+    match device.kind:
+        case "rcx":
+            if surroundings.link is None:
+                raise DeviceError(f"the brick {device.name} has no port", help="name one with --port")
+            return RcxDevice(maps[device.name], surroundings.link)
+        case "operator":
+            return Operator(device.name, bindings, theory, surroundings.desk, surroundings.speak)
+        case "host":
+            return Host(device.name, Path(device.folder) / (device.file or ""), bindings, theory)
+        case _:
+            _check_senseless(theory, device, bindings)
+            return Itself(device.name, bindings)
+
+
+def _implied(theory: BasicActionTheory, device: th.Device) -> Iterator[Binding]:
+    """Bindings for a device without any: every primitive action that no other device has."""
+    elsewhere = {binding.action for other in theory.devices if other is not device for binding in other.bindings}
+    for action in theory.actions.values():
+        if not action.exogenous and action.name not in elsewhere:
+            yield Binding(action.name, action.parameters, None, None, None, None, span=device.span)
+
+
+def _check_senseless(theory: BasicActionTheory, device: th.Device, bindings: tuple[Binding, ...]) -> None:
+    for binding in bindings:
+        if theory.actions[binding.action].senses:
+            message = f"`{binding.action}` senses, but the device `self` cannot answer"
+            raise UserError(Diagnostic(Code.NO_DEVICE, message, binding.span, help="bind it to another device"))
+
+
+def _check_complete(theory: BasicActionTheory, maps: dict[str, ActionMap]) -> None:
+    """Every primitive action must have a device for some arguments at least."""
+    bound = {entry.action for numbers in maps.values() for entry in numbers.entries}
+    for device in theory.devices:
+        bound.update(binding.action for binding in device.bindings or _implied(theory, device))
+    missing = [action for action in theory.actions.values() if not action.exogenous and action.name not in bound]
+    if missing:
+        raise UserError(
+            *(
+                Diagnostic(
+                    Code.NO_DEVICE,
+                    f"no device performs `{action.name}`",
+                    action.span,
+                    help="bind it in a device block; a block `device self:` takes actions that nothing performs",
+                )
+                for action in missing
+            )
+        )

@@ -1,0 +1,227 @@
+"""Puts an online run together: the devices, the sources, the operator, the trace and the journal."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Callable, Mapping, Sequence
+from contextlib import ExitStack, closing
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from golc.diagnostics import Diagnostic, Findings, Source, Span
+from golc.planning.planner import executable
+from golc.runtime.asking import ALL, REMEDIES, AskAboutFailure, AskBeforeActions, always
+from golc.runtime.calls import Call, example, read_value
+from golc.runtime.clock import Clock
+from golc.runtime.desk import Desk
+from golc.runtime.devices.base import Args, Device, Router
+from golc.runtime.devices.bricks import Link
+from golc.runtime.devices.build import Surroundings, brick_maps, build_devices
+from golc.runtime.executive import Executive, Outcome
+from golc.runtime.exogenous import COMMANDS, Terminal, Timetable
+from golc.runtime.happenings import Observer, Remedy
+from golc.runtime.inbox import Inbox
+from golc.runtime.inbox import Source as EventSource
+from golc.runtime.journal import Journal
+from golc.runtime.listener import Listener
+from golc.runtime.policy import OnImpossible, Policy
+from golc.runtime.polling import Poller
+from golc.runtime.schedule import Schedule, read_schedule
+from golc.runtime.signals import ending_on_signals
+from golc.runtime.trace import BOLD, DIM, MARGIN, Style, Trace, summary
+from golc.theory.statements import Message
+from golc.theory.theory import BasicActionTheory
+from golc.theory.types import show
+
+SIMULATED = "sim"
+"""The port that stands for a simulated brick."""
+
+
+@dataclass(frozen=True)
+class Settings:
+    """What the command line says about a run; see ``golc run --help``. Durations are in simulated seconds."""
+
+    port: str | None = None
+    events: Path | None = None
+    listen: tuple[str, int] | None = None
+    journal: Path | None = None
+    stop_when_idle: float | None = None
+    on_impossible: OnImpossible = OnImpossible.APPLY
+    on_failure: Remedy | None = None
+    """None: ask the operator."""
+    step: bool = False
+    speed: float = 1.0
+    seed: int = 0
+    constants: Mapping[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Voice:
+    """How a run speaks: ``write`` shows a line, ``complain`` the diagnostics of a refused line."""
+
+    write: Callable[[str], None]
+    complain: Callable[[tuple[Diagnostic, ...]], None]
+    style: Style
+    verbosity: int
+
+
+def run_online(theory: BasicActionTheory, program: Call, settings: Settings, voice: Voice) -> Outcome:
+    """Run a procedure of a theory online until it ends, however it ends; the signals that end a process end it too.
+
+    Raises ``UserError`` before anything happens if the theory, its devices or the events file are wrong; afterwards
+    what ``Executive.run`` raises; ``FileExistsError`` for a journal that is there already.
+    """
+    with ExitStack() as stack:
+        stack.enter_context(ending_on_signals())
+        return _Session(theory, program, settings, voice, stack).run()
+
+
+class _Session:
+    """One run: what is put together for it, and what its parts need of one another."""
+
+    def __init__(
+        self, theory: BasicActionTheory, program: Call, settings: Settings, voice: Voice, stack: ExitStack
+    ) -> None:
+        self.theory = theory
+        self.program = program
+        self.settings = settings
+        self.voice = voice
+        self.stack = stack
+        self.inbox = Inbox()
+        self.maps = brick_maps(theory)
+        self.executable = executable(theory, program.action, program.args)
+        self.dynamics = self.executable.dynamics
+        self.desk = Desk(self.ask, sys.stdin is not None and sys.stdin.isatty(), sys.stdin is not None, self.plausible)
+
+    def run(self) -> Outcome:
+        settings = self.settings
+        schedule = Schedule() if settings.events is None else read_schedule(settings.events, self.theory)
+        observers = self.observers()
+        devices = build_devices(self.theory, Surroundings(self.desk, self.speak, self.link()))
+        clock = Clock(time.monotonic, time.monotonic(), settings.speed)
+        timetable = Timetable(schedule.only(self.is_ours), self.inbox, clock)
+        sources = [*self.sources(devices, clock), timetable]
+        policy = self.policy(clock)
+        self.executive = Executive(self.executable, Router(devices, self.theory), self.inbox, sources, policy, clock)
+        self.executive.observers += [timetable.observe, *observers]
+        self.greet()
+        outcome = self.executive.run()
+        if timetable.pending and settings.events is not None:
+            self.say(f"the schedule still had {timetable.pending} to come: {settings.events}")
+        return outcome
+
+    # What is put together
+
+    def observers(self) -> list[Observer]:
+        """The journal first: what is told has been written."""
+        voice, journal = self.voice, self.settings.journal
+        trace = Trace(self.dynamics, voice.style, voice.verbosity, voice.write, voice.complain)
+        if journal is None:
+            return [trace]
+        opened = Journal(journal, self.dynamics, self.program.action, self.program.args)
+        return [self.stack.enter_context(closing(opened)), trace]
+
+    def link(self) -> Link | None:
+        """The way to the bricks, if the domain has any; starts a simulated one where no port is given."""
+        settings = self.settings
+        if not self.maps:
+            return None
+        if not self.simulated:
+            return Link(settings.port or "", settings.speed)
+        from golc.runtime.rcxsim.process import BrickOptions, spawn
+
+        options = BrickOptions(
+            speed=settings.speed, seed=settings.seed, events=settings.events, constants=settings.constants
+        )
+        brick = self.stack.enter_context(spawn(self.theory.source.name, options))
+        return Link(brick.port, settings.speed)
+
+    @property
+    def simulated(self) -> bool:
+        """Whether golc itself simulates the bricks."""
+        return bool(self.maps) and self.settings.port in (None, SIMULATED)
+
+    def is_ours(self, event: Call) -> bool:
+        """Whether a line of the events file is reported from here, and not by the simulated brick."""
+        return not (self.simulated and any(actions.handles(event.action, event.args) for actions in self.maps.values()))
+
+    def sources(self, devices: Sequence[Device], clock: Clock) -> list[EventSource]:
+        """Everything that may report exogenous actions, but the schedule."""
+        found: list[EventSource] = []
+        polled = [device for device in devices if device.poll_interval is not None]
+        if polled:
+            reported = {entry.action for actions in self.maps.values() for entry in actions.entries if entry.exogenous}
+            found.append(Poller(polled, frozenset(reported), self.inbox, clock))
+        if sys.stdin is not None:
+            found.append(Terminal(self.theory, self.inbox, self.desk, self.reply, sys.stdin.fileno()))
+        if self.settings.listen is not None:
+            listener = Listener(self.theory, self.inbox, *self.settings.listen)
+            self.say("listening on {}:{}".format(*listener.address))
+            found.append(listener)
+        return found
+
+    def policy(self, clock: Clock) -> Policy:
+        settings = self.settings
+        idle = settings.stop_when_idle
+        return Policy(
+            on_impossible=settings.on_impossible,
+            on_failure=AskAboutFailure(self.desk, self.show)
+            if settings.on_failure is None
+            else always(settings.on_failure),
+            retry_after=clock.real(1.0),
+            stop_when_idle=None if idle is None else clock.real(idle),
+            confirm=AskBeforeActions(self.desk) if settings.step else None,
+            interrupt=self.desk.interrupt,
+        )
+
+    # What is said, and to whom
+
+    def greet(self) -> None:
+        """Say what is run, where, and what the operator can do."""
+        where = f"on {self.settings.port}" if self.settings.port and not self.simulated else ""
+        if self.simulated:
+            speed = "" if self.settings.speed == 1 else f", {self.settings.speed:g} times as fast as a real one"
+            where = f"on a simulated brick{speed}" + ("" if self.settings.port else " (no --port was given)")
+        self.say(f"{self.theory.name}: {self.program} {where}".rstrip())
+        if sys.stdin is not None and sys.stdin.isatty():
+            self.say(
+                f"type an exogenous action such as {example(self.theory, exogenous=True)}, or one of "
+                + ", ".join(f"!{name}" for name in COMMANDS)
+            )
+
+    def say(self, text: str) -> None:
+        """Something good to know."""
+        if self.voice.verbosity >= 0:
+            self.voice.write(self.voice.style.paint(DIM, f"{MARGIN}{text}"))
+
+    def ask(self, question: str) -> None:
+        """Show a question, or a word about a wrong answer."""
+        self.voice.write(self.voice.style.paint(BOLD, f"{MARGIN}? {question}"))
+
+    def speak(self, message: Message, args: Args) -> str:
+        """The text of a message now."""
+        state, evaluate = self.executive.state, self.dynamics.interpreter.evaluate
+        return "".join(part if isinstance(part, str) else show(evaluate(part, state, args)) for part in message.parts)
+
+    def show(self, what: str) -> str:
+        """The state or the history as text."""
+        lines = summary(self.dynamics, self.executive.state) if what == "state" else self.executive.told()
+        return f"\n{MARGIN}".join(lines) or "nothing has happened yet"
+
+    def reply(self, result: object) -> None:
+        """The answer to a command that was typed."""
+        if result is not None:
+            self.voice.write(MARGIN + self.show("state" if isinstance(result, Mapping) else "history"))
+
+    def plausible(self, line: str) -> bool:
+        """Whether a line that was sent ahead could be the answer to a question."""
+        word = line.strip()
+        asked = [device for device in self.theory.devices if device.kind == "operator"]
+        if self.settings.on_failure is None and word.lower() in REMEDIES:
+            return True
+        if not word or (self.settings.step and word == ALL):
+            return bool(asked) or self.settings.step
+        senses = [term.type for action in self.theory.actions.values() for term in action.senses] if asked else []
+        source = Source("<stdin>", word)
+        return any(read_value(self.theory, type_, Span(source, 0, len(word)), Findings()) for type_ in senses)

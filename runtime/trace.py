@@ -1,0 +1,233 @@
+"""A readable account of a run: what was decided and why, what the devices answered, what the world did."""
+
+from __future__ import annotations
+
+import traceback
+from collections import Counter
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from golc.diagnostics import DeviceError, Diagnostic, Span
+from golc.runtime.happenings import (
+    Begun,
+    Blocked,
+    Done,
+    Dropped,
+    End,
+    Ended,
+    Failed,
+    Happening,
+    Refused,
+    Remedied,
+    Remedy,
+    Reset,
+    Said,
+    SourceEnded,
+    Started,
+    TakenIn,
+    Tested,
+    Waiting,
+)
+from golc.runtime.reasons import Reasons, one_line
+from golc.situation.dynamics import Dynamics
+from golc.situation.layout import State
+from golc.theory.types import Value, show, show_call
+
+ACTION_WIDTH = 26
+DEVICE_WIDTH = 12
+MARGIN = " " * 11
+"""As wide as the time and the space behind it."""
+
+INSTANT = 0.005
+"""Seconds below which a duration is not worth mentioning."""
+
+
+@dataclass(frozen=True)
+class Style:
+    """How a trace looks: in color or not, with the signs of Unicode or those of ASCII."""
+
+    color: bool
+    unicode: bool
+
+    def paint(self, code: str, text: str) -> str:
+        """A text in a color, given as the numbers of the terminal's escape sequence."""
+        return f"\x1b[{code}m{text}\x1b[0m" if self.color and text else text
+
+    def sign(self, fancy: str, plain: str) -> str:
+        """A sign that the terminal can show."""
+        return fancy if self.unicode else plain
+
+
+DIM, BOLD, RED, GREEN, YELLOW, CYAN = "2", "1", "1;31", "32", "1;33", "1;36"
+
+
+class Trace:
+    """An observer that writes a line or two for everything that happens.
+
+    ``write`` gets each line; ``complain`` the diagnostics of refused lines. ``verbosity`` is -1 (messages and trouble
+    only), 0, or 1 (test steps and the tracebacks of foreign code too).
+    """
+
+    def __init__(
+        self,
+        dynamics: Dynamics,
+        style: Style,
+        verbosity: int,
+        write: Callable[[str], None],
+        complain: Callable[[tuple[Diagnostic, ...]], None],
+    ) -> None:
+        self._dynamics = dynamics
+        self._style = style
+        self._verbosity = verbosity
+        self._write = write
+        self._complain = complain
+        self._reasons = Reasons(dynamics.theory)
+
+    def __call__(self, happening: Happening) -> None:
+        if self._verbosity >= 0 or isinstance(happening, (Said, Failed, Refused, Ended)):
+            for line in self._lines(happening):
+                self._write(line)
+
+    def _lines(self, happening: Happening) -> Iterator[str]:
+        match happening:
+            case Begun():
+                yield self._begun(happening)
+            case Done():
+                yield from self._done(happening)
+            case TakenIn():
+                yield from self._taken_in(happening)
+            case Waiting(time=time, span=span):
+                sign = self._style.sign("…", "..")
+                yield self._line(
+                    time, self._dim(f"  {sign} {one_line(span):{ACTION_WIDTH + DEVICE_WIDTH}} {self._at(span)}")
+                )
+            case Started(state=state):
+                yield from (self._dim(MARGIN + line) for line in summary(self._dynamics, state))
+            case Ended():
+                yield from self._ended(happening)
+            case _:
+                yield from self._rare(happening)
+
+    def _rare(self, happening: Happening) -> Iterator[str]:
+        style = self._style
+        match happening:
+            case Said(time=time, text=text):
+                yield self._line(time, style.paint(BOLD, style.sign("“{}”", '"{}"').format(text)))
+            case Failed(time=time, error=error):
+                yield self._line(time, style.paint(RED, f"  {style.sign('✗', 'x')} {error}"))
+                yield from (f"{MARGIN}    {line}" for line in self._help(error))
+            case Remedied(time=time, remedy=remedy) if remedy is not Remedy.STOP:
+                words = {Remedy.RETRY: "tries again", Remedy.NEXT: "looks for another way"}
+                yield self._line(time, self._dim(f"    {words[remedy]}"))
+            case Dropped(time=time, action=action, args=args, source=source, reason=reason):
+                arrow = style.sign("←", "<-")
+                yield self._line(
+                    time, style.paint(RED, f"{arrow} {show_call(action, args)} from {source} dropped: {reason}")
+                )
+            case Refused(diagnostics=diagnostics):
+                self._complain(diagnostics)
+            case Blocked(time=time, reasons=reasons, sources=sources):
+                yield self._line(time, style.paint(YELLOW, f"  blocked; waits for {' or '.join(sources)}"))
+                yield from (f"{MARGIN}    {reason}" for reason in reasons)
+            case Reset(time=time, source=source):
+                yield self._line(time, style.paint(YELLOW, f"the devices were told to stop ({source}: !abort)"))
+            case Tested(time=time, span=span) if self._verbosity > 0:
+                yield self._line(
+                    time, self._dim(f"  - {one_line(span):{ACTION_WIDTH + DEVICE_WIDTH}} {self._at(span)}")
+                )
+            case SourceEnded(time=time, source=source) if self._verbosity > 0:
+                yield self._line(time, self._dim(f"  {source} has ended"))
+
+    def _begun(self, begun: Begun) -> str:
+        arrow = self._style.sign("→", "->")
+        action = self._style.paint(CYAN, f"{arrow} {show_call(begun.action, begun.args):{ACTION_WIDTH}}")
+        condition = self._reasons.where(begun.span).condition
+        why = self._dim(self._at(begun.span) + (f": {condition}" if condition else ""))
+        return self._line(begun.time, f"{action} {begun.device:{DEVICE_WIDTH}} {why}")
+
+    def _at(self, span: Span) -> str:
+        return self._reasons.line(span)
+
+    def _done(self, done: Done) -> Iterator[str]:
+        changes = self._changes(done.before, done.after)
+        if done.duration < INSTANT and not changes and not done.results and self._verbosity < 1:
+            return
+        tick = self._style.paint(GREEN, f"  {self._style.sign('✓', 'ok')} {done.duration:.2f} s")
+        answer = f"  answered {', '.join(map(show, done.results))}" if done.results else ""
+        yield self._line(done.time, f"{tick}{self._style.paint(BOLD, answer)}{changes}")
+        for surprise in done.surprises:
+            what = surprise.fluent or "what it senses"
+            text = f"    {what} was thought to be {show(surprise.expected)}"
+            yield MARGIN + self._style.paint(YELLOW, text)
+
+    def _taken_in(self, event: TakenIn) -> Iterator[str]:
+        arrow = self._style.sign("←", "<-")
+        call = self._style.paint(YELLOW, f"{arrow} {show_call(event.action, event.args):{ACTION_WIDTH}}")
+        yield self._line(event.time, f"{call} {event.source:{DEVICE_WIDTH}}{self._changes(event.before, event.after)}")
+        if event.impossible:
+            yield MARGIN + self._style.paint(YELLOW, "  which the theory thinks impossible here; the world is right")
+
+    def _changes(self, before: State, after: State) -> str:
+        if before == after:
+            return ""
+        arrow = self._style.sign("→", "->")
+        names = self._dynamics.layout.ground_fluents
+        changed = [
+            f"{show_call(name, args)} {show(old)} {arrow} {show(new)}"
+            for (name, args), old, new in zip(names, before, after, strict=True)
+            if old != new
+        ]
+        return "  " + ", ".join(changed)
+
+    def _help(self, error: DeviceError) -> Iterator[str]:
+        if error.help:
+            yield f"= help: {error.help}"
+        if self._verbosity > 0 and error.__cause__ is not None:
+            yield from "".join(traceback.format_exception(error.__cause__)).splitlines()
+
+    def _ended(self, ended: Ended) -> Iterator[str]:
+        good = ended.end in (End.FINAL, End.IDLE, End.STOPPED)
+        if self._verbosity < 0 and good:
+            return
+        counts = f"{ended.actions} actions, {ended.exogenous} exogenous actions, {ended.time:.1f} s"
+        yield ""
+        yield self._line(
+            ended.time, self._style.paint(GREEN if good else RED, f"end: {ended.message}") + f" ({counts})"
+        )
+        yield from (MARGIN + line for line in summary(self._dynamics, ended.state))
+        for device, why in ended.unstopped:
+            yield self._style.paint(RED, f"{MARGIN}the device {device} could not be told to stop: {why}")
+
+    def _line(self, time: float, text: str) -> str:
+        return f"{self._dim(f'{time:7.2f} s')}  {text}".rstrip()
+
+    def _dim(self, text: str) -> str:
+        return self._style.paint(DIM, text)
+
+
+def summary(dynamics: Dynamics, state: State) -> Iterator[str]:
+    """A state in a few lines: fluents without arguments together, a relational one by where it holds, any other by its
+    usual value and the exceptions."""
+    values: dict[str, list[tuple[tuple[Value, ...], Value]]] = {}
+    for (name, args), value in zip(dynamics.layout.ground_fluents, state, strict=True):
+        values.setdefault(name, []).append((args, value))
+    plain = [f"{name} = {show(known[0][1])}" for name, known in values.items() if known[0][0] == ()]
+    if plain:
+        yield ", ".join(plain)
+    for name, known in values.items():
+        if known[0][0] != ():
+            yield _family(name, known)
+
+
+def _family(name: str, known: list[tuple[tuple[Value, ...], Value]]) -> str:
+    """All ground fluents of one name."""
+    if all(isinstance(value, bool) for _, value in known):
+        holds = [_arguments(args) for args, value in known if value]
+        return f"{name} holds for {', '.join(holds)}" if holds else f"{name} holds for nothing"
+    usual = Counter(value for _, value in known).most_common(1)[0][0]
+    others = [f"{show_call(name, args)} = {show(value)}" for args, value in known if value != usual]
+    return ", ".join([*others, f"all other {name} = {show(usual)}"]) if others else f"every {name} = {show(usual)}"
+
+
+def _arguments(args: tuple[Value, ...]) -> str:
+    return show(args[0]) if len(args) == 1 else show_call("", args)
