@@ -15,13 +15,17 @@ if TYPE_CHECKING:
 
 
 class Node:
-    """A rule with its operands; made by a ``Pool`` only, compared by identity."""
+    """A rule with its operands; made by a ``Pool`` only, compared by identity.
 
-    __slots__ = ("__weakref__", "operands", "rule")
+    ``may_finish``: whether it can be final in any state, as far as that is plain from its form.
+    """
+
+    __slots__ = ("__weakref__", "may_finish", "operands", "rule")
 
     def __init__(self, rule: Rule, operands: tuple[Any, ...]) -> None:
         self.rule = rule
         self.operands = operands
+        self.may_finish: bool = all(part.may_finish for part in operands) if rule.needs_all else rule.may_finish
 
     def __repr__(self) -> str:
         return f"{self.rule!r}{self.operands!r}"

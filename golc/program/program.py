@@ -31,11 +31,11 @@ class Program:
             return rule.closed
         if rule.dead:
             env = tuple([None if level in rule.dead else value for level, value in enumerate(env)])
-        return self._pool.node(rule, env)
+        return rule.instance(self, env)
 
     def close(self, rule: Rule, depth: int) -> None:
         """Make the only node of a statement that reads no variable."""
-        rule.closed = self._pool.node(rule, (None,) * depth)
+        rule.closed = rule.instance(self, (None,) * depth)
 
     def sequence(self, first: Node, rest: Node) -> Node:
         """*first; rest*."""
@@ -55,10 +55,19 @@ class Program:
     def with_branch(self, whole: Node, index: int, residual: Node) -> Node:
         """A ``together`` or ``prefer`` in which one branch has made a step."""
         parts = whole.operands
-        if residual is self.nil:
-            parts = (*parts[:index], *parts[index + 1 :])
-            return parts[0] if len(parts) == 1 else self._pool.node(whole.rule, parts)
-        return self._pool.node(whole.rule, (*parts[:index], residual, *parts[index + 1 :]))
+        return self.branches(whole.rule, (*parts[:index], residual, *parts[index + 1 :]))
+
+    def branches(self, rule: Rule, parts: tuple[Node, ...]) -> Node:
+        """A ``together`` or ``prefer`` of those parts that are not over."""
+        if self.nil in parts:
+            parts = tuple([part for part in parts if part is not self.nil])
+        match parts:
+            case ():
+                return self.nil
+            case (part,):
+                return part
+            case _:
+                return self._pool.node(rule, parts)
 
     def interrupts(self, rule: Interrupts, env: Env, bodies: tuple[Node | None, ...]) -> Node:
         """Interrupts with their residual bodies; those that are over are no longer active."""

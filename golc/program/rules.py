@@ -14,7 +14,7 @@ Neither recurses into a part that may be nested without bound: the walks (``walk
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import Any, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from golc.diagnostics import Span
 from golc.program.frames import Branch, Handler, Then, Token
@@ -24,6 +24,9 @@ from golc.program.walks import Proof, Walk
 from golc.situation.layout import State
 from golc.theory.terms import Term
 from golc.theory.types import Value
+
+if TYPE_CHECKING:
+    from golc.program.program import Program
 
 Env: TypeAlias = tuple[Value, ...]
 Evaluate: TypeAlias = Callable[[State, Env], Any]
@@ -35,16 +38,22 @@ Found: TypeAlias = tuple[Label, Node] | None
 class Rule:
     """The base of all rules.
 
-    ``may_finish``: whether a node can be final at all. ``dead``: the levels of the environment that the statement does
-    not read. ``closed``: the only node of a statement that reads no variable.
+    ``may_finish``: whether its nodes can be final at all; with ``needs_all`` they can if all their operands can.
+    ``dead``: the levels of the environment that the statement does not read. ``closed``: the only node of a statement
+    that reads no variable.
     """
 
     may_finish = True
+    needs_all = False
     dead: frozenset[int] = frozenset()
     closed: Node | None = None
 
     def __init__(self, span: Span) -> None:
         self.span = span
+
+    def instance(self, program: Program, env: Env) -> Node:
+        """The node of a statement in an environment."""
+        return program.node(self, env)
 
     def trans(self, walk: Walk, node: Any) -> Found:
         """One transition, or none and more work on the walk's stack."""
@@ -175,7 +184,7 @@ class WaitUntil(Rule):
 
 
 class Block(Rule):
-    """*δ1; δ2* as written: a statement and the block below it."""
+    """*δ1; δ2* as written: a statement and the block below it. Its nodes are sequences."""
 
     def __init__(self, span: Span, first: Rule, rest: Rule) -> None:
         super().__init__(span)
@@ -183,34 +192,35 @@ class Block(Rule):
         self.rest = rest
         self.may_finish = first.may_finish and rest.may_finish
 
-    def trans(self, walk: Walk, node: Node) -> Found:
-        program = walk.machine.program
-        _push_sequence(walk, program.at(self.first, node.operands), program.at(self.rest, node.operands))
-        return None
-
-    def final(self, proof: Proof, node: Node) -> bool:
-        program = proof.machine.program
-        proof.require_all((program.at(self.first, node.operands), program.at(self.rest, node.operands)))
-        return False
+    def instance(self, program: Program, env: Env) -> Node:
+        """From the last statement to the first; a loop, for blocks may be long."""
+        heads: list[Node] = []
+        rule: Rule = self
+        while isinstance(rule, Block) and rule.closed is None:
+            heads.append(program.at(rule.first, env))
+            rule = rule.rest
+        node = program.at(rule, env)
+        for head in reversed(heads):
+            node = program.sequence(head, node)
+        return node
 
 
 class Sequence(Rule):
-    """*δ1; δ2* in which δ1 has begun; the operands are the two."""
+    """*δ1; δ2*; the operands are the two."""
+
+    needs_all = True
 
     def trans(self, walk: Walk, node: Node) -> Found:
-        _push_sequence(walk, *node.operands)
+        """If δ1 is final, δ2's transitions come first, then δ1's."""
+        first, rest = node.operands
+        walk.push_inside(first, Then(rest, walk.outer))
+        if first.may_finish and walk.machine.final(first, walk.state, walk.entered):
+            walk.push(rest)
         return None
 
     def final(self, proof: Proof, node: Node) -> bool:
         proof.require_all(node.operands)
         return False
-
-
-def _push_sequence(walk: Walk, first: Node, rest: Node) -> None:
-    """If δ1 is final, δ2's transitions come first, then δ1's."""
-    walk.push_inside(first, Then(rest, walk.outer))
-    if first.rule.may_finish and walk.machine.final(first, walk.state, walk.entered):
-        walk.push(rest)
 
 
 class If(Rule):
@@ -388,7 +398,7 @@ class Invoke(Rule):
 class Together(Rule):
     """*δ1 ∥ δ2*: interleaved concurrency; the operands are the branches that are not over."""
 
-    prioritised = False
+    needs_all = True
 
     def trans(self, walk: Walk, node: Node) -> Found:
         for index in reversed(range(len(node.operands))):
@@ -402,6 +412,8 @@ class Together(Rule):
 
 class Prefer(Rule):
     """*δ1 ⟩⟩ δ2*: the lower part only if the higher one has no transition; the operands are the parts in order."""
+
+    needs_all = True
 
     def __init__(self, span: Span) -> None:
         super().__init__(span)
@@ -430,25 +442,16 @@ class Lower(Rule):
 
 
 class Branching(Rule):
-    """``together`` or ``prefer`` as written: its parts with the same environment, under the rule of the begun form."""
+    """``together`` or ``prefer`` as written: its nodes are of the rule ``whole``."""
 
-    def __init__(self, span: Span, begun: Rule, branches: tuple[Rule, ...]) -> None:
+    def __init__(self, span: Span, whole: Rule, branches: tuple[Rule, ...]) -> None:
         super().__init__(span)
-        self.begun = begun
+        self.whole = whole
         self.branches = branches
         self.may_finish = all(branch.may_finish for branch in branches)
 
-    def _begin(self, walk: Walk | Proof, node: Node) -> Node:
-        program = walk.machine.program
-        return program.node(self.begun, tuple(program.at(branch, node.operands) for branch in self.branches))
-
-    def trans(self, walk: Walk, node: Node) -> Found:
-        walk.push(self._begin(walk, node))
-        return None
-
-    def final(self, proof: Proof, node: Node) -> bool:
-        proof.require(self._begin(proof, node))
-        return False
+    def instance(self, program: Program, env: Env) -> Node:
+        return program.branches(self.whole, tuple([program.at(branch, env) for branch in self.branches]))
 
 
 class On:

@@ -54,7 +54,7 @@ class Machine:
 
     def final(self, node: Node, state: State, entered: Entered = NONE_ENTERED) -> bool:
         """Whether the program may end in this state."""
-        return node.rule.may_finish and Proof(self, state, node, entered).succeeds()
+        return node.may_finish and Proof(self, state, node, entered).succeeds()
 
     def decide(self, node: Node, state: State) -> Transition | None:
         """The transition that the online loop takes: a test step if there is one, otherwise the first action step,
