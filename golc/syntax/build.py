@@ -12,13 +12,7 @@ from golc.syntax import tree as ast
 from golc.syntax.layout import DEEPEST
 from golc.syntax.messages import parse_message, plain_text
 from golc.syntax.rules import NESTING, RULES, SIMPLE
-
-RESERVED = frozenset(
-    "abort choose for guard if interrupts let pick prefer say search skip star test together wait while within "
-    "count exists false forall known knows max min none not possible sum true "
-    "and or implies iff in elif else when where one some set list unknown".split()
-)
-"""The words that may not be names."""
+from golc.syntax.words import RESERVED
 
 Inner: TypeAlias = Callable[[Span], ast.Expr | None]
 """Parses the expression at a place inside a message."""

@@ -1,23 +1,46 @@
-"""What is wrong with a text that does not follow the grammar, in the words of its writer."""
+"""What is wrong with a text that does not follow the grammar, in the words of its writer.
+
+Each hint recognises one kind of mistake by the token that does not fit, the terminals that would, the words before it and
+the open brackets; the first that recognises its own speaks.
+"""
 
 from __future__ import annotations
 
-from lark import Token, UnexpectedCharacters, UnexpectedInput
+from lark import UnexpectedInput
 
 from golc.diagnostics import Code, Diagnostic, Span
+from golc.syntax import blocks, foreign, keywords, phrases
+from golc.syntax.failure import Failure, Hint, failure
 from golc.syntax.layout import LayoutError
 
+HINTS: tuple[Hint, ...] = (
+    keywords.no_declaration,
+    phrases.missing_dot,
+    foreign.full_stop,
+    foreign.foreign_sign,
+    foreign.foreign_word,
+    *blocks.HINTS[:3],
+    foreign.braces,
+    *blocks.HINTS[3:],
+    foreign.comment,
+    foreign.character,
+    phrases.chained,
+    phrases.wrong_sign,
+    phrases.late_not,
+    keywords.misspelt,
+    keywords.reserved,
+    *phrases.HINTS,
+)
 
-def diagnose(span: Span, start: str, error: UnexpectedInput | LayoutError) -> Diagnostic:
-    """The finding for an error that the parser met in a part of a text."""
-    match error:
-        case LayoutError(start=first, end=last, kind=kind):
-            place = Span(span.source, span.start + first, span.start + last)
-            return Diagnostic(Code.INDENTATION, f"the indentation does not fit ({kind})", place)
-        case UnexpectedCharacters(pos_in_stream=first):
-            place = Span(span.source, span.start + first, span.start + first + 1)
-            return Diagnostic(Code.SYNTAX, f"unexpected character {place.text!r}", place)
-    token = getattr(error, "token", Token("$END", ""))
-    first = span.start + (token.start_pos or 0)
-    place = Span(span.source, first, first + len(token))
-    return Diagnostic(Code.SYNTAX, f"unexpected {place.text!r}" if place.text else "something is missing here", place)
+
+def diagnose(
+    part: Span, start: str, text: str, error: UnexpectedInput | LayoutError
+) -> tuple[Diagnostic, Failure | None]:
+    """The finding for an error that the parser met in a part of a source, and how the parser failed if it did."""
+    if isinstance(error, LayoutError):
+        return blocks.wrong_layout(part, error), None
+    failed = failure(part, start, text)
+    if failed is None:
+        return Diagnostic(Code.SYNTAX, "this does not follow the grammar", part), None
+    found = next(finding for hint in HINTS if (finding := hint(failed)) is not None)
+    return found, failed

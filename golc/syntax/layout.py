@@ -9,6 +9,8 @@ from dataclasses import dataclass
 from lark import Token
 from lark.lark import PostLex
 
+from golc.syntax.words import DECLARATIONS
+
 DEEPEST = 500
 """Levels of nesting that a text and its tree may have."""
 
@@ -91,28 +93,7 @@ class Chunk:
     too_deep: int | None = None
 
 
-DECLARATIONS = (
-    "domain",
-    "import",
-    "const",
-    "type",
-    "static",
-    "fluent",
-    "initially",
-    "define",
-    "action",
-    "exog",
-    "axiom",
-    "invariant",
-    "goal",
-    "prune",
-    "scenario",
-    "proc",
-    "device",
-)
-"""The words that begin a declaration."""
-
-_MARK = re.compile(r'"(?:\\[^\n]|[^"\\\n])*"?|#[^\n]*|[()\[\]{}]|^[ \t]*(?=[^\s#])', re.MULTILINE)
+_MARK = re.compile(r'^[ \t]*(?=[^\s#])|"(?:\\[^\n]|[^"\\\n])*"?|#[^\n]*|[()\[\]{}]', re.MULTILINE)
 _DECLARATION = re.compile(rf'(?:{"|".join(DECLARATIONS)})[ \t]+[A-Za-z"({{]')
 
 

@@ -83,7 +83,8 @@ def _load(path: Path) -> Lark | None:
             if not _ours(os.fstat(file.fileno()), stat.S_ISREG):
                 return None
             saved = _Plain(file).load()
-        loaded: Lark = Lark._load_from_dict(saved["data"], saved["memo"], postlex=Layout())
+        load: Any = Lark._load_from_dict
+        loaded: Lark = load(saved["data"], saved["memo"], postlex=Layout())
         return loaded
     except Exception:
         # Whatever a damaged file leads to, in pickle or in lark, the grammar is at hand: build from it.
@@ -100,7 +101,7 @@ def _store(path: Path, data: bytes) -> None:
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(data)
-        os.replace(name, path)
+        Path(name).replace(path)
     except OSError:
-        os.unlink(name)
+        Path(name).unlink()
         raise

@@ -124,7 +124,7 @@ def _action(b: Builder, span: Span, children: list[Any]) -> ast.Action:
 def _exog(b: Builder, span: Span, children: list[Any]) -> ast.Exog:
     name, parameters, *rest = children
     b.declare(name)
-    clauses = tuple(part for part in rest if isinstance(part, ast.Node))
+    clauses: Any = tuple(part for part in rest if isinstance(part, ast.Node))
     sources = _first(tuple, rest)
     return ast.Exog(name, _tuple(parameters), "expected" in rest, _tuple(sources), clauses, span=span)
 
@@ -274,10 +274,12 @@ def _entry(b: Builder, span: Span, children: list[Any]) -> ast.TableEntry:
     return ast.TableEntry(key if isinstance(key, tuple) else (key,), value, span=span)
 
 
-NESTING = frozenset(
-    "block binary not_in unary if_else quantifier apply index extremum epistemic one_of set_of list_of table "
-    "set_literal list_literal set_comprehension list_comprehension".split()
-)
+_NESTING = """
+block binary not_in unary if_else quantifier apply index extremum epistemic one_of set_of list_of table
+set_literal list_literal set_comprehension list_comprehension
+"""
+
+NESTING = frozenset(_NESTING.split())
 """The rules that nest: each is a level."""
 
 SIMPLE: dict[str, Any] = {

@@ -45,7 +45,7 @@ class Real(Node):
 
 @dataclass(frozen=True)
 class Message(Node):
-    """``"…{e}…"``: pieces of text (escapes resolved) and expressions in turn; a plain string is one piece of text, or none."""
+    """``"…{e}…"``: pieces of text (escapes resolved) and expressions in turn; a plain string is one piece or none."""
 
     parts: tuple[str | Expr, ...]
 
@@ -537,10 +537,14 @@ Declaration: TypeAlias = (
 
 @dataclass(frozen=True)
 class File(Node):
-    """A whole file: its domain's name and its declarations in order."""
+    """A whole file: its domain's name and its declarations in order.
+
+    ``unread`` are names that are declared where the text has an error: they exist, but nothing is known of them.
+    """
 
     domain: Ident
     declarations: tuple[Declaration, ...]
+    unread: tuple[Ident, ...] = field(default=(), compare=False)
 
 
 # ---- programs

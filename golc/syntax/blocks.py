@@ -1,0 +1,204 @@
+"""Hints for lines and blocks: indentation, colons, branches, brackets."""
+
+from __future__ import annotations
+
+from lark import Token
+
+from golc.diagnostics import Code, Diagnostic, Label, Span
+from golc.syntax.failure import LAYOUT, Failure, Hint
+from golc.syntax.layout import CLOSING, LayoutError
+from golc.syntax.words import BRANCHES, CLAUSES, STATEMENTS
+
+_HEADS = """
+action exog axiom scenario proc device if elif else while choose or pick star for let together and prefer over
+interrupts on guard search within
+"""
+
+HEADS = frozenset(_HEADS.split())
+"""The words that begin a line with a block below it."""
+
+CLOSING_OF = {"LPAR": "RPAR", "LSQB": "RSQB", "LBRACE": "RBRACE"}
+
+
+def wrong_layout(part: Span, error: LayoutError) -> Diagnostic:
+    """A tab, or a line that returns to no block."""
+    span = Span(part.source, part.start + error.start, part.start + error.end)
+    if error.kind == "tab":
+        return Diagnostic(
+            Code.INDENTATION,
+            "this line is indented with a tab",
+            span,
+            help="indent with spaces, four for each block; most editors can do it for you",
+        )
+    columns = [str(level) for level in error.levels]
+    around = f"{', '.join(columns[:-1])} and {columns[-1]}" if columns[1:] else columns[0]
+    return Diagnostic(
+        Code.INDENTATION,
+        f"this line is indented by {span.end - span.start}, which no block above it is",
+        span,
+        help=f"the blocks above it are indented by {around}",
+    )
+
+
+def missing_block(failure: Failure) -> Diagnostic | None:
+    """Nothing is indented below a colon."""
+    if failure.accepts != {"_INDENT"} or failure.previous is None:
+        return None
+    word = str(failure.line_before[0]) if failure.line_before else ""
+    return failure.finding(
+        Code.MISSING,
+        f"the block of this `{word}` is missing",
+        failure.gap(),
+        "indent the lines that belong to it by four spaces"
+        + ("; a block that does nothing is `skip`" if word.lower() not in ("action", "exog") else ""),
+    )
+
+
+def block_on_the_line(failure: Failure) -> Diagnostic | None:
+    """Something stands behind the colon of a block."""
+    if failure.accepts != {"_NL"} or failure.previous is None or failure.previous.type != "COLON":
+        return None
+    return failure.finding(
+        Code.SYNTAX,
+        "a block begins on a line of its own",
+        help="put it on the next line, indented by four spaces",
+    )
+
+
+def missing_colon(failure: Failure) -> Diagnostic | None:
+    """A line that has a block below it, or a statement behind it, without a colon."""
+    line = failure.line or failure.line_before
+    if not line or line[0] not in HEADS:
+        return None
+    if failure.kind == "_INDENT" and line[0] in ("action", "exog", "device") and line[-1].type != "COLON":
+        pass
+    elif "COLON" not in failure.accepts or failure.brackets or _wants_name_before_colon(failure):
+        return None
+    elif failure.kind not in ("_NL", "_INDENT") and str(failure.bad) not in STATEMENTS | CLAUSES.keys():
+        return None
+    return failure.finding(
+        Code.MISSING,
+        f"the colon at the end of this `{line[0]}` is missing",
+        failure.gap(),
+        "end the line with `:`",
+    )
+
+
+def _wants_name_before_colon(failure: Failure) -> bool:
+    """Whether the colon that could come belongs to a variable: ``pick x``."""
+    return "IN" in failure.accepts and "AND" not in failure.accepts
+
+
+def unexpected_indent(failure: Failure) -> Diagnostic | None:
+    """A line that is indented although no block begins."""
+    if failure.kind != "_INDENT":
+        return None
+    start = failure.text.rfind("\n", 0, failure.place) + 1
+    first = failure.previous is None
+    return failure.finding(
+        Code.INDENTATION,
+        "the first line is indented" if first else "this line is indented, but no block begins above it",
+        failure.at(start, failure.place),
+        "let it begin in the first column"
+        if first
+        else "indent it as the line above; only after a colon a block begins",
+    )
+
+
+def lost_branch(failure: Failure) -> Diagnostic | None:
+    """``else`` and the like at the beginning of a line that they do not go on with; ``choose`` without ``or``."""
+    word = str(failure.bad)
+    if failure.bad is not None and failure.begins_line() and word in BRANCHES:
+        return failure.finding(
+            Code.INDENTATION,
+            f"this `{word}` belongs to no `{BRANCHES[word]}`",
+            help=f"`{word}` stands in the column of its `{BRANCHES[word]}`, behind that one's block",
+        )
+    for accepted, branch in (("OR", "or"), ("AND", "and"), ("_OVER", "over")):
+        if failure.accepts == {accepted}:
+            return failure.finding(
+                Code.MISSING,
+                f"this `{BRANCHES[branch]}` has one branch only",
+                failure.gap(),
+                f"add `{branch}:` with a block, in the column of `{BRANCHES[branch]}`",
+            )
+    if "OTHERWISE" in failure.accepts and failure.kind in ("_DEDENT", "$END"):
+        return failure.finding(
+            Code.MISSING,
+            "the last line of this `axiom` is missing",
+            failure.gap(),
+            "end it with `otherwise unchanged`",
+        )
+    return None
+
+
+def wrong_bracket(failure: Failure) -> Diagnostic | None:
+    """A bracket that closes nothing, or another one."""
+    if failure.kind not in CLOSING:
+        return None
+    sign = CLOSING[failure.kind]
+    if not failure.brackets:
+        return failure.finding(Code.MISSING, f"this `{sign}` closes nothing", help="remove it, or open it before")
+    opening = failure.brackets[-1]
+    if CLOSING_OF[opening.type] == failure.kind:
+        return None
+    return failure.finding(
+        Code.MISSING,
+        f"this `{sign}` does not close `{opening}`",
+        help=f"write `{CLOSING[CLOSING_OF[opening.type]]}` first",
+        labels=(Label(failure.span(opening), "opened here"),),
+    )
+
+
+def unclosed_bracket(failure: Failure) -> Diagnostic | None:
+    """A bracket that is still open where another line begins, or where the text ends."""
+    if not failure.brackets:
+        return None
+    opening = failure.brackets[-1]
+    last = _last_before_next_line(failure, opening)
+    if last is None:
+        return None
+    sign = CLOSING[CLOSING_OF[opening.type]]
+    end = last.end_pos or 0
+    return failure.finding(
+        Code.MISSING,
+        f"the `{sign}` for this line's `{opening}` is missing",
+        failure.at(end, end),
+        f"close it with `{sign}`",
+        labels=(Label(failure.span(opening), "opened here"),),
+    )
+
+
+def _last_before_next_line(failure: Failure, opening: Token) -> Token | None:
+    """The last token before a line inside the bracket that begins like one of its own, or before the end."""
+    inside = [token for token in failure.tokens if (token.start_pos or 0) >= (opening.start_pos or 0)]
+    following = [*inside[1:], failure.bad] if failure.bad is not None else inside[1:]
+    for before, token in zip(inside, following, strict=False):
+        if token.type in LAYOUT or token.type == "$END":
+            return before
+        if token.line != before.end_line and str(token) in STATEMENTS | CLAUSES.keys():
+            return before
+    closes = CLOSING_OF[opening.type] in failure.accepts
+    if closes and (failure.kind in ("COLON", "ASSIGN", "WHEN", "WHERE", *CLOSING) or failure.begins_line()):
+        return failure.previous
+    return None
+
+
+def empty_brackets(failure: Failure) -> Diagnostic | None:
+    """``p()``."""
+    if failure.kind != "RPAR" or failure.previous is None or failure.previous.type != "LPAR":
+        return None
+    span = failure.span(failure.previous).to(failure.here())
+    return failure.finding(Code.SYNTAX, "empty parentheses are left out", span, "write the name alone")
+
+
+HINTS: tuple[Hint, ...] = (
+    empty_brackets,
+    wrong_bracket,
+    unclosed_bracket,
+    missing_block,
+    block_on_the_line,
+    missing_colon,
+    unexpected_indent,
+    lost_branch,
+)

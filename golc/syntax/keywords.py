@@ -1,0 +1,97 @@
+"""Hints for words: a line that begins no declaration, a misspelt word, a reserved one."""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterable
+
+from golc.diagnostics import Code, Diagnostic
+from golc.syntax.failure import Failure
+from golc.syntax.terminals import word_of
+from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, OTHER_NAMES, RESERVED, STATEMENTS
+
+
+def no_declaration(failure: Failure) -> Diagnostic | None:
+    """A line in the first column that begins no declaration."""
+    if failure.tokens or "ACTION" not in failure.accepts:
+        return None
+    word = re.match(r"[A-Za-z]\w*|", failure.rest)
+    found = word.group() if word else ""
+    if failure.kind == "_INDENT" or not found:
+        return None
+    span = failure.at(failure.place, failure.place + len(found))
+    if found in CLAUSES or found in STATEMENTS or found in BRANCHES:
+        return _lost_line(failure, found)
+    ours = OTHER_NAMES.get(found.lower()) or closest(found, DECLARATIONS)
+    if ours is not None:
+        return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, f"did you mean `{ours}`?")
+    if re.search(r":-|\.[ \t]*(%.*)?$", failure.rest):
+        message = "this is a clause of Prolog"
+        help = "begin a declaration with its kind: `fluent`, `action`, `exog`, `proc`, …"
+        return failure.finding(
+            Code.FOREIGN, message, failure.at(failure.place, failure.place + len(failure.rest)), help
+        )
+    kinds = ", ".join(f"`{kind}`" for kind in DECLARATIONS[1:])
+    return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, f"a declaration begins with {kinds}")
+
+
+def _lost_line(failure: Failure, word: str) -> Diagnostic:
+    home = CLAUSES.get(word, "`proc`")
+    return failure.finding(
+        Code.INDENTATION,
+        f"this `{word}` stands in the first column, outside of any declaration",
+        failure.at(failure.place, failure.place + len(word)),
+        f"indent it below its {home}",
+    )
+
+
+def misspelt(failure: Failure) -> Diagnostic | None:
+    """A name where only words can stand, or behind one that looks like a word."""
+    if failure.kind == "NAME":
+        ours = closest(str(failure.bad), _words(failure.accepts))
+        if ours is not None:
+            return failure.finding(Code.SYNTAX, f"`{failure.bad}` is no word here", help=f"did you mean `{ours}`?")
+    last = failure.tokens[-1] if failure.tokens else None
+    if last is None or last.type != "NAME" or str(last) in _words(failure.chosen_from):
+        return None
+    ours = closest(str(last), _words(failure.chosen_from))
+    if ours is None:
+        return None
+    return failure.finding(Code.SYNTAX, f"`{last}` is no word here", failure.span(last), f"did you mean `{ours}`?")
+
+
+def reserved(failure: Failure) -> Diagnostic | None:
+    """A reserved word in the place of a name."""
+    word = str(failure.bad)
+    if failure.bad is not None and word in RESERVED and failure.accepts == {"NAME"}:
+        return failure.finding(
+            Code.RESERVED, f"`{word}` is a word of the language and cannot be a name", help="choose another name"
+        )
+    last = failure.tokens[-1] if failure.tokens else None
+    if last is None or str(last) not in AFTER:
+        return None
+    return failure.finding(
+        Code.RESERVED,
+        f"`{last}` is a word of the language and cannot be a name",
+        failure.span(last),
+        f"after `{last}` stands {AFTER[str(last)]}",
+    )
+
+
+AFTER = {
+    **dict.fromkeys(("exists", "forall", "count", "sum"), "a variable: `x: type. …`"),
+    **dict.fromkeys(("min", "max"), "a variable, `x: type. …`, or arguments, `(a, b)`"),
+    **dict.fromkeys(("known", "knows", "possible"), "an argument in parentheses"),
+}
+"""What has to stand behind a word that begins an expression."""
+
+
+def closest(word: str, words: Iterable[str]) -> str | None:
+    """The word that was probably meant; short ones have to be nearer."""
+    found = difflib.get_close_matches(word.lower(), list(words), n=1, cutoff=0.7 if len(word) > 3 else 0.8)
+    return found[0] if found and len(word) > 2 else None
+
+
+def _words(terminals: Iterable[str]) -> list[str]:
+    return sorted(word for terminal in terminals if (word := word_of(terminal)) is not None)

@@ -1,0 +1,117 @@
+"""Reading a file with errors, declaration by declaration, so that one mistake never hides the next."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+
+from golc.diagnostics import Code, Findings, Label, Source, Span
+from golc.syntax import tree as ast
+from golc.syntax.keywords import closest
+from golc.syntax.layout import split
+from golc.syntax.pieces import Piece, parse_piece
+
+_CONTENT = re.compile(r"^[ \t]*([A-Za-z]\w*|[^\s#])", re.MULTILINE)
+
+
+def recover(source: Source, findings: Findings) -> ast.File | None:
+    """What can be read of a file, with a finding for each declaration that cannot; None if there is nothing at all."""
+    read = list(_pieces(source))
+    pieces = [piece for piece, _ in read]
+    if not pieces:
+        _nothing(source, findings)
+        return None
+    _check_domain(pieces, findings)
+    _merge(read, findings)
+    nodes = [piece.node for piece in pieces if piece.node is not None]
+    domain = next((node for node in nodes if isinstance(node, ast.Ident)), None)
+    declarations = tuple(node for node in nodes if not isinstance(node, ast.Ident))
+    if domain is None and not declarations:
+        return None
+    start = pieces[0].part.start
+    here = Span(source, start, start)
+    unread = tuple(name for piece in pieces if piece.node is None for name in _names(piece))
+    return ast.File(domain or ast.Ident("", span=here), declarations, unread, span=here.to(pieces[-1].part))
+
+
+def _pieces(source: Source) -> Iterable[tuple[Piece, Findings]]:
+    for chunk in split(source.text):
+        part = Span(source, chunk.start, chunk.end)
+        if not _first_word(part):
+            continue
+        found = Findings()
+        start = "header" if _first_word(part) == "domain" else "declaration"
+        yield parse_piece(part, start, chunk.too_deep, found), found
+
+
+def _first_word(part: Span) -> str:
+    content = _CONTENT.search(part.text)
+    return "" if content is None else content.group(1)
+
+
+def _nothing(source: Source, findings: Findings) -> None:
+    what = "the file holds nothing but comments" if source.text.strip() else "the file is empty"
+    help = "begin it with its domain line: `domain delivery`"
+    findings.error(Code.DOMAIN, what, Span(source, 0, 0), help=help)
+
+
+def _check_domain(pieces: list[Piece], findings: Findings) -> None:
+    """The domain line is there, the first, and the only one."""
+    headers = [piece for piece in pieces if _first_word(piece.part) == "domain"]
+    first = pieces[0]
+    if not headers:
+        if closest(_first_word(first.part), ["domain"]) is None:
+            help = "begin the file with a line such as `domain delivery`"
+            findings.error(Code.DOMAIN, "the domain line is missing", _word_span(first), help=help)
+        return
+    if headers[0] is not first:
+        message = "the domain line is not the first"
+        findings.error(Code.DOMAIN, message, _word_span(headers[0]), help="move it to the beginning of the file")
+    for second in headers[1:]:
+        findings.error(
+            Code.DOMAIN,
+            "there is a second domain line",
+            _word_span(second),
+            help="a file describes one domain: remove the line, or `import` another file",
+            labels=(Label(_word_span(headers[0]), "the first one"),),
+        )
+
+
+def _word_span(piece: Piece) -> Span:
+    content = _CONTENT.search(piece.part.text)
+    start, end = (0, 0) if content is None else content.span(1)
+    return Span(piece.part.source, piece.part.start + start, piece.part.start + end)
+
+
+def _merge(read: list[tuple[Piece, Findings]], findings: Findings) -> None:
+    """The findings of all pieces, without those that only repeat a mistake made elsewhere."""
+    misused = {
+        diagnostic.span.text
+        for piece, found in read
+        for diagnostic in found.diagnostics
+        if piece.failure is None and diagnostic.code is Code.RESERVED
+    }
+    tabs = False
+    for piece, found in read:
+        for diagnostic in found.diagnostics:
+            tab = diagnostic.code is Code.INDENTATION and "\t" in diagnostic.span.text
+            if not (tab and tabs) and not _uses(piece, misused):
+                findings.add(diagnostic)
+            tabs = tabs or tab
+
+
+def _uses(piece: Piece, misused: set[str]) -> bool:
+    """Whether a piece cannot be read in a line that uses a reserved word which another piece declares as a name."""
+    return piece.failure is not None and any(str(token) in misused for token in piece.failure.line)
+
+
+def _names(piece: Piece) -> list[ast.Ident]:
+    """The names that a declaration that cannot be read probably declares: the first, and the symbols of a type."""
+    text, start = piece.part.text, piece.part.start
+    names = list(re.finditer(r"[A-Za-z]\w*", text.split("\n", 1)[0]))[1:]
+    if not text.startswith("type"):
+        names = names[:1]
+    return [
+        ast.Ident(name.group(), span=Span(piece.part.source, start + name.start(), start + name.end()))
+        for name in names
+    ]
