@@ -114,6 +114,14 @@ class Code(Enum):
     UNUSED_LOCAL = ("GL028", "a parameter or variable is not used")
     DEVICE = ("GL029", "a device block says what its kind cannot do")
     BINDING = ("GL030", "a binding does not fit its action")
+    LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
+
+    # 050..059: initial values
+    NO_INITIAL = ("GL050", "a fluent has no initial value")
+    INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
+
+    # 070..079: programs
+    UNREACHABLE = ("GL070", "an interrupt is not reached")
 
     # 100..129: run time
     ARGUMENT_OUTSIDE_TYPE = ("GL100", "an argument is outside its parameter's type")

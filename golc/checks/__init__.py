@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from golc.checks.initial import check_initial
+from golc.checks.names import check_names
+from golc.checks.programs import check_programs
 from golc.diagnostics import Diagnostic, Findings
 from golc.syntax import tree
 from golc.theory.theory import BasicActionTheory
@@ -10,4 +13,7 @@ from golc.theory.theory import BasicActionTheory
 def check(theory: BasicActionTheory, file: tree.File) -> list[Diagnostic]:
     """Every finding about a theory and the file that describes it, family by family."""
     findings = Findings()
+    check_names(theory, file, findings)
+    check_initial(theory, findings)
+    check_programs(theory, findings)
     return findings.diagnostics

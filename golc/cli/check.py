@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -17,7 +16,9 @@ if TYPE_CHECKING:
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
-@click.option("--format", "form", type=click.Choice(["text", "json"]), default="text", help="How to write the findings.")
+@click.option(
+    "--format", "form", type=click.Choice(["text", "json"]), default="text", help="How to write the findings."
+)
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @constants_option
 @console_options
@@ -59,6 +60,8 @@ def _write(console: Console, findings: list[Diagnostic]) -> None:
 
 
 def _write_json(console: Console, findings: list[Diagnostic], errors: int, warnings: int) -> None:
+    import json
+
     from golc.rendering import to_json
 
     found = {"findings": [to_json(finding) for finding in findings], "errors": errors, "warnings": warnings}

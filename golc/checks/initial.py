@@ -1,0 +1,63 @@
+"""Initial values: each can be computed, and lies in its fluent's type."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Iterator
+
+from golc.diagnostics import Code, Findings
+from golc.theory.closed import STEPS, Closed, Env, NoValueError
+from golc.theory.fitting import describe
+from golc.theory.terms import Term, Variable, subterms
+from golc.theory.theory import BasicActionTheory, Fluent
+from golc.theory.types import show, show_call
+
+LIMIT = 100_000
+"""Instances of one fluent that are looked at."""
+
+
+def check_initial(theory: BasicActionTheory, findings: Findings) -> None:
+    """Row 2 of what ``golc check`` proves; that there is an initial value at all is found by elaboration."""
+    closed = Closed(theory.statics.get, theory.definitions.get)
+    for fluent in theory.fluents.values():
+        _check_fluent(fluent, closed, findings)
+
+
+def _check_fluent(fluent: Fluent, closed: Closed, findings: Findings) -> None:
+    instances = _instances(fluent)
+    for args in itertools.islice(instances, LIMIT):
+        closed.steps = STEPS
+        if not _check_instance(fluent, args, closed, findings):
+            return  # the other instances have probably the same mistake
+    if next(instances, None) is not None:
+        message = f"the initial values of `{fluent.name}` are not decided: it has more than {LIMIT} instances"
+        findings.warning(Code.INITIAL_VALUE, message, fluent.initial.span, "evaluated only in part")
+
+
+def _instances(fluent: Fluent) -> Iterator[Env]:
+    """The arguments that have to be looked at: one of each parameter that the initial value does not depend on."""
+    levels = _levels(fluent.initial)
+    ranges = [
+        parameter.type.values if level in levels else parameter.type.values[:1]
+        for level, parameter in enumerate(fluent.parameters)
+    ]
+    return itertools.product(*ranges)
+
+
+def _levels(term: Term) -> set[int]:
+    return {part.level for part in subterms(term) if isinstance(part, Variable)}
+
+
+def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Findings) -> bool:
+    what = show_call(fluent.name, args)
+    try:
+        value = closed.evaluate(fluent.initial, args)
+    except NoValueError as error:
+        message = f"the initial value of `{what}` cannot be computed: {error.reason}"
+        findings.error(Code.INITIAL_VALUE, message, error.span, "here")
+        return False
+    if value in fluent.type:
+        return True
+    message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type)}"
+    findings.error(Code.INITIAL_VALUE, message, fluent.initial.span, f"is {show(value)}")
+    return False

@@ -1,0 +1,134 @@
+"""Which declared names a file mentions, and what becomes of the names that it binds locally."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+
+from golc.syntax import tree
+from golc.syntax.walk import children
+
+
+@dataclass(eq=False)
+class Bound:
+    """A parameter or a variable, and whether anything mentions it. ``hidden`` is the local name that it hides."""
+
+    name: tree.Ident
+    what: str
+    owner: tree.Node
+    used: bool = False
+    hidden: Bound | None = None
+
+
+Locals = Mapping[str, Bound]
+
+
+@dataclass
+class Usage:
+    """What a file mentions.
+
+    ``values`` are the names of consts, types, symbols, fluents, statics and definitions that stand anywhere but where they
+    are declared; ``asked`` the actions in ``poss(…)``; ``called`` gives for each action and procedure that is called the
+    declarations that call it; ``bound`` is every local name in the order of the text.
+    """
+
+    values: set[str] = field(default_factory=set)
+    asked: set[str] = field(default_factory=set)
+    called: dict[str, set[str]] = field(default_factory=dict)
+    bound: list[Bound] = field(default_factory=list)
+
+
+def usage(file: tree.File) -> Usage:
+    """Look through a file."""
+    found = _Walk(file)
+    for declaration in file.declarations:
+        found.declaration(declaration)
+    found.usage.bound.sort(key=lambda bound: bound.name.span.start)
+    return found.usage
+
+
+class _Walk:
+    """Visits every node with the local names around it; a stack instead of recursion, for the depth is the input's."""
+
+    def __init__(self, file: tree.File) -> None:
+        self.usage = Usage()
+        self.inside = ""
+        self.stack: list[tuple[tree.Node, Locals]] = []
+        self.parameters: dict[str, Locals] = {}
+        for node in file.declarations:
+            if isinstance(node, (tree.Action, tree.Exog)):
+                self.parameters[node.name.text] = self.bind({}, [parameter.name for parameter in node.parameters], node)
+
+    def declaration(self, node: tree.Declaration) -> None:
+        self.inside = node.name.text if isinstance(node, (tree.Proc, tree.Action, tree.Exog)) else ""
+        match node:
+            case tree.Action(name=name) | tree.Exog(name=name):
+                self.push(node.clauses, self.parameters[name.text])
+                self.push([parameter.type for parameter in node.parameters], {})
+            case tree.Proc() | tree.Define() | tree.Static() | tree.Fluent():
+                inner = self.bind({}, [parameter.name for parameter in node.parameters], node)
+                self.push([parameter.type for parameter in node.parameters], {})
+                self.push(
+                    [part for part in children(node) if not isinstance(part, (tree.Ident, tree.Parameter))], inner
+                )
+            case _:
+                self.push(children(node), {})
+        while self.stack:
+            self.visit(*self.stack.pop())
+
+    def push(self, nodes: Iterable[tree.Node | None], scope: Locals) -> None:
+        self.stack.extend([(node, scope) for node in nodes if node is not None])
+
+    def bind(self, scope: Locals, names: Iterable[tree.Ident], owner: tree.Node) -> Locals:
+        what = "parameter" if isinstance(owner, tree.Declaration) else "variable"
+        for name in names:
+            bound = Bound(name, what, owner, hidden=scope.get(name.text))
+            self.usage.bound.append(bound)
+            scope = {**scope, name.text: bound}
+        return scope
+
+    def visit(self, node: tree.Node, scope: Locals) -> None:
+        match node:
+            case tree.Apply(name=tree.Ident(text="poss"), args=(tree.Apply() as action,)):
+                self.usage.asked.add(action.name.text)
+                self.push(action.args, scope)
+            case tree.Apply(name=name, args=args):
+                self.mention(name.text, scope)
+                self.push(args, scope)
+            case tree.TypeName(name=name):
+                self.mention(name.text, {})
+            case tree.Call(target=target):
+                self.usage.called.setdefault(target.name.text, set()).add(self.inside)
+                self.push(target.args, scope)
+            case tree.Let(name=name, value=value, body=body):
+                self.push([value], scope)
+                self.push([body], self.bind(scope, [name], node))
+            case tree.Binding():
+                self.binding(node)
+            case tree.Ident(text=text):
+                self.mention(text, scope)
+            case _:
+                self.inner(node, scope)
+
+    def inner(self, node: tree.Node, scope: Locals) -> None:
+        """What binders bind is known in everything beside them."""
+        inside = [*children(node)]
+        binders = [part for part in inside if isinstance(part, tree.Binder)]
+        for binder in binders:
+            self.push([binder.type, binder.collection], scope)
+        bound = self.bind(scope, [binder.name for binder in binders], node)
+        self.push([part for part in inside if not isinstance(part, tree.Binder)], bound)
+
+    def binding(self, node: tree.Binding) -> None:
+        scope = self.parameters.get(node.action.text, {})
+        for arg in node.args or ():
+            self.push([arg.type if isinstance(arg, tree.Parameter) else arg], {})
+        if isinstance(node.behaviour, tree.ByPrompt):
+            self.push([node.behaviour.message], scope)
+        self.push([node.table, node.timeout], {})
+
+    def mention(self, name: str, scope: Locals) -> None:
+        if name in scope:
+            scope[name].used = True
+        else:
+            self.usage.values.add(name)
