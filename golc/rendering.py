@@ -35,8 +35,9 @@ STYLES = {Severity.ERROR: Style.ERROR, Severity.WARNING: Style.WARNING, Severity
 def render(diagnostic: Diagnostic, color: bool = False) -> str:
     """A diagnostic as text: its message, the place with its line, the labels with theirs, notes and help.
 
-    The primary place comes first, the labels follow in the order of the text; those in the primary place's line stand under
-    it. Tabs, wide and combining characters keep the marks under what they mark; control characters are made visible.
+    The primary place comes first, the labels follow in the order of the text; those in the primary place's line stand
+    under it. Tabs, wide and combining characters keep the marks under what they mark; control characters are made
+    visible.
     """
     return "\n".join(_Layout(diagnostic, color).lines())
 
@@ -44,9 +45,10 @@ def render(diagnostic: Diagnostic, color: bool = False) -> str:
 def to_json(diagnostic: Diagnostic) -> dict[str, Any]:
     """A diagnostic as JSON has it.
 
-    ``code``, ``title``, ``severity`` (``error``, ``warning``, ``note``), ``message``, ``span``, ``marker`` (the text beside the
-    mark, perhaps empty), ``labels`` (each a ``span`` and a ``text``), ``notes`` (texts) and ``help`` (a text or null). A span
-    has ``file``, ``line``, ``column``, ``end_line``, ``end_column`` (all from 1, columns in characters, the end exclusive).
+    ``code``, ``title``, ``severity`` (``error``, ``warning``, ``note``), ``message``, ``span``, ``marker`` (the text
+    beside the mark, perhaps empty), ``labels`` (each a ``span`` and a ``text``), ``notes`` (texts) and ``help`` (a text
+    or null). A span has ``file``, ``line``, ``column``, ``end_line``, ``end_column`` (all from 1, columns in characters,
+    the end exclusive).
     """
     return {
         "code": diagnostic.code.code,

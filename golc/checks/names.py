@@ -125,7 +125,7 @@ def _mentioned(node: tree.Node) -> set[str]:
 
 
 def _bound_twice(theory: BasicActionTheory, findings: Findings) -> None:
-    """An instance of a primitive action has one device; an exogenous action may be reported by several, once by each."""
+    """An instance of a primitive action has one device; several may report an exogenous action, each once."""
     seen: dict[str, list[tuple[Device, Binding]]] = {}
     for device in theory.devices:
         for binding in device.bindings:

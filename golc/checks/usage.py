@@ -27,9 +27,9 @@ Locals = Mapping[str, Bound]
 class Usage:
     """What a file mentions.
 
-    ``values`` are the names of consts, types, symbols, fluents, statics and definitions that stand anywhere but where they
-    are declared; ``asked`` the actions in ``poss(…)``; ``called`` gives for each action and procedure that is called the
-    declarations that call it; ``bound`` is every local name in the order of the text.
+    ``values`` are the names of consts, types, symbols, fluents, statics and definitions that stand anywhere but where
+    they are declared; ``asked`` the actions in ``poss(…)``; ``called`` gives for each action and procedure that is
+    called the declarations that call it; ``bound`` is every local name in the order of the text.
     """
 
     values: set[str] = field(default_factory=set)

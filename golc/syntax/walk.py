@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields
-from functools import cache
 
 from golc.syntax.tree import Node
 
@@ -18,13 +16,12 @@ def descendants(node: Node) -> Iterator[Node]:
             stack.extend(reversed(item))
         elif isinstance(item, Node):
             yield item
-            values = item.__dict__
-            stack.extend([values[name] for name in _fields(type(item))])
+            stack.extend(_fields(item))
 
 
 def children(node: Node) -> Iterator[Node]:
     """The nodes directly inside a node, in the order of the text."""
-    stack: list[object] = [node.__dict__[name] for name in _fields(type(node))]
+    stack: list[object] = [*_fields(node)]
     while stack:
         item = stack.pop()
         if isinstance(item, tuple):
@@ -33,7 +30,6 @@ def children(node: Node) -> Iterator[Node]:
             yield item
 
 
-@cache
-def _fields(kind: type[Node]) -> tuple[str, ...]:
-    """The fields that may hold nodes, last first: that is how a stack wants them."""
-    return tuple(field.name for field in reversed(fields(kind)) if field.name not in ("span", "text", "op", "kind"))
+def _fields(node: Node) -> Iterator[object]:
+    """What a node holds, last first: that is how a stack wants it. A dataclass keeps its fields in their order."""
+    return reversed(vars(node).values())

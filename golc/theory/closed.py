@@ -1,7 +1,7 @@
 """The values of closed terms: those that read no fluent, so that they are known before there is any situation.
 
-Constants, bounds of intervals, tables, settings of devices and initial values are closed. The evaluator calls itself from
-Python code alone, never through a builtin like ``any``: then a deep term costs memory, but no C stack.
+Constants, bounds of intervals, tables, settings of devices and initial values are closed. The evaluator calls itself
+from Python code alone, never through a builtin like ``any``: then a deep term costs memory, but no C stack.
 """
 
 from __future__ import annotations

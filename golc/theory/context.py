@@ -1,7 +1,7 @@
-"""What all rooms of the elaborator share: the names, the findings, and each declaration resolved once, when it is needed.
+"""What all rooms of the elaborator share: the names, the findings, and each declaration, resolved once.
 
-Declarations come in any order, so a declaration is resolved when somebody first asks for it; one that is asked for while
-it is being resolved depends on itself.
+Declarations come in any order, so a declaration is resolved when somebody first asks for it; one that is asked for
+while it is being resolved depends on itself.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from golc.theory.types import Type
 
 @dataclass(frozen=True)
 class Signature:
-    """What a call has to fit: of a fluent, static, definition, action or procedure (``type`` is ``bool`` for the last two)."""
+    """What a call has to fit, and its type (``bool`` for actions and procedures)."""
 
     entry: Entry
     parameters: tuple[Parameter, ...]

@@ -113,8 +113,8 @@ class _Collector:
             help=f"choose another name, for `{first.name}` can only be one of them",
         )
 
-    # A symbol belongs to one enumeration. A declared enumeration that is part of a larger one (or repeats an earlier one)
-    # is a subset of it and declares nothing.
+    # A symbol belongs to one enumeration. A declared enumeration that is part of a larger one (or repeats an earlier
+    # one) is a subset of it and declares nothing.
 
     def enumerations(self, nodes: list[tree.TypeDecl]) -> None:
         """The symbols of the types that are enumerations."""

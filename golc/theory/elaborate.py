@@ -1,7 +1,7 @@
 """The elaborator: the tree of a file to a typed basic action theory.
 
-Names are resolved, types are inferred and checked, constants are evaluated. The work is done in rooms: ``declare`` collects
-the names, ``context`` resolves each declaration once, the ``elaborate_*`` modules know how.
+Names are resolved, types are inferred and checked, constants are evaluated. The work is done in rooms: ``declare``
+collects the names, ``context`` resolves each declaration once, the ``elaborate_*`` modules know how.
 """
 
 from __future__ import annotations

@@ -74,7 +74,8 @@ def _device(context: Context, node: tree.Device, sensed: Mapping[str, tuple[Term
     if node.file is not None and abilities.file is None:
         message = f"a device `{node.kind.text}` has no file"
         context.error(Code.DEVICE, message, node.kind.span, "leave the file out")
-    bindings, settings = [], {}
+    bindings: list[Binding] = []
+    settings: dict[str, Setting] = {}
     for item in node.items:
         if isinstance(item, tree.Binding):
             binding = _binding(context, node, abilities, item, sensed)
@@ -200,7 +201,8 @@ def _arg(
         case tree.Parameter(name=name):
             type_ = elaborate_type(context, node.type)
             if not _part_of(type_, parameter.type):
-                message = f"`{name.text}` is of type {describe(type_)} here, but of type {describe(parameter.type)} in `{action}`"
+                here, there = describe(type_), describe(parameter.type)
+                message = f"`{name.text}` is of type {here} here, but of type {there} in `{action}`"
                 labels = (Label(parameter.span, "declared here"),)
                 context.error(Code.BINDING, message, node.span, "not a part of that type", labels=labels)
             return Parameter(name.text, type_, span=name.span)
@@ -223,7 +225,7 @@ def _part_of(type_: Type, whole: Type) -> bool:
         return False
     if type_.kinds == whole.kinds == INT.kinds and whole == INT:
         return True
-    return size(type_) <= size(whole) and all([value in whole for value in type_.values]) if whole.finite else False
+    return size(type_) <= size(whole) and all(value in whole for value in type_.values) if whole.finite else False
 
 
 def _behaviour(context: Context, node: tree.Binding, signature: Signature) -> ByCall | ByStart | ByPrompt | None:

@@ -28,17 +28,21 @@ def resolve(context: Context, scope: Scope, node: tree.Apply, hint: Type | None)
     """
     variable = scope.get(node.name.text)
     if variable is not None:
-        return variable if not node.args else _no_arguments(context, node, "a variable", None)
+        if not node.args:
+            return variable
+        _no_arguments(context, node, "a variable", None)
+        return None
     entry = context.names.values.get(node.name.text)
     if entry is None:
         _unknown_term(context, scope, node, hint)
         return None
     match entry.kind:
         case Kind.CONSTANT | Kind.SYMBOL if node.args:
-            return _no_arguments(context, node, entry.kind.phrase, entry)
+            _no_arguments(context, node, entry.kind.phrase, entry)
+            return None
         case Kind.CONSTANT:
             constant = context.constant(entry)
-            return constant and Literal(constant.value, type=constant.type, span=node.span)
+            return None if constant is None else Literal(constant.value, type=constant.type, span=node.span)
         case Kind.SYMBOL:
             return Literal(entry.name, type=home(context, entry), span=node.span)
         case Kind.TYPE:

@@ -1,7 +1,7 @@
 """Expressions to typed terms.
 
-A term that cannot be elaborated is a finding and a literal of type ``BROKEN``, which fits everywhere: one mistake is one
-finding. The elaborator calls itself from Python code alone, never through a builtin: a deep term costs no C stack.
+A term that cannot be elaborated is a finding and a literal of type ``BROKEN``, which fits everywhere: one mistake is
+one finding. The elaborator calls itself from Python code alone, never through a builtin: a deep term costs no C stack.
 """
 
 from __future__ import annotations
@@ -235,7 +235,7 @@ def _integer(context: Context, scope: Scope, node: tree.Expr, what: str) -> Term
 
 def _numeric(context: Context, op: Operator, args: list[Term], span: Span) -> Term:
     """An operation on integers; its value if all operands are constants."""
-    if any([arg.type is BROKEN for arg in args]):
+    if any(arg.type is BROKEN for arg in args):
         return broken(span)
     last = args[-1]
     values = [arg.value for arg in args if isinstance(arg, Literal)]
@@ -350,7 +350,7 @@ def _order(left: Term, right: Term) -> tuple[Value, ...] | None:
     if not (isinstance(a, Enumeration) or isinstance(b, Enumeration)) or not (a.finite and b.finite):
         return None
     small, large = (a, b) if len(a.values) <= len(b.values) else (b, a)
-    return tuple(large.values) if all([value in large for value in small.values]) else None
+    return tuple(large.values) if all(value in large for value in small.values) else None
 
 
 def _membership(context: Context, scope: Scope, element: Term, node: tree.Expr | tree.IntervalType, span: Span) -> Term:
@@ -388,7 +388,7 @@ def _is_type(context: Context, scope: Scope, name: tree.Ident) -> bool:
 
 def _one_of(context: Context, scope: Scope, element: Term, nodes: tuple[tree.Expr, ...], span: Span) -> Term:
     choices = [term(context, scope, node, element.type) for node in nodes]
-    if element.type is BROKEN or any([choice.type is BROKEN for choice in choices]):
+    if element.type is BROKEN or any(choice.type is BROKEN for choice in choices):
         return broken(span)
     good = True
     for choice in choices:
@@ -468,7 +468,7 @@ def _quantifier(context: Context, scope: Scope, node: tree.Quantifier) -> Term:
     where = None if node.where is None else formula(context, inner, node.where, "`where`")
     logical = node.kind in ("exists", "forall", "count")
     body = fitting(context, inner, node.body, BOOL if logical else INT, f"`{node.kind}`")
-    if any([binder.variable.type is BROKEN for binder in binders]):
+    if any(binder.variable.type is BROKEN for binder in binders):
         return broken(node.span)
     type_ = BOOL if node.kind in ("exists", "forall") else INT
     return Quantified(node.kind, binders, where, body, type=type_, span=node.span)

@@ -1,4 +1,4 @@
-"""What never changes: consts, statics, tables, and every other expression that must have a value before the first situation."""
+"""What never changes: consts, statics, tables, and whatever else must have a value before the first situation."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from golc.theory.types import BOOL, Type, Value, show, show_call
 
 
 def closed_term(context: Context, found: Term, what: str) -> bool:
-    """Whether a term reads no fluent, directly or through definitions; otherwise a finding. ``what`` names the value."""
+    """Whether a term reads no fluent, not even through definitions; otherwise a finding. ``what`` names the value."""
     for part in subterms(found):
         match part:
             case Literal(type=type_) if type_ is BROKEN:
@@ -84,7 +84,7 @@ def constant(context: Context, entry: Entry) -> Constant | None:
     assert isinstance(entry.node, tree.Const)
     written = constant_value(context, entry.node.value, None)
     if entry.name not in context.overrides or context.names.values.get(entry.name) is not entry:
-        return written and Constant(entry.name, written.value, written.type, span=entry.span)
+        return None if written is None else Constant(entry.name, written.value, written.type, span=entry.span)
     given = _override(context, entry.name, context.overrides[entry.name])
     if given is None or written is None:
         return None
@@ -217,7 +217,8 @@ def _covers(context: Context, signature: Signature, node: tree.Table, table: Map
         return True
     first = [_shown_key(key) for key in itertools.islice(_missing(signature, table), 3)]
     more = needed - len(table) - len(first)
-    message = f"the table of `{signature.entry.name}` has no value for {', '.join(first)}{f' and {more} more' if more else ''}"
+    missing = ", ".join(first) + (f" and {more} more" if more else "")
+    message = f"the table of `{signature.entry.name}` has no value for {missing}"
     context.error(Code.TABLE, message, signature.entry.span, "a table covers its type")
     return False
 

@@ -36,7 +36,7 @@ def strip_optional(type_: Type) -> Type:
 
 
 def join(left: Type, right: Type) -> Type | None:
-    """A type for a term that is sometimes of the one and sometimes of the other type; none if they have nothing in common."""
+    """A type for a term that is sometimes of the one, sometimes of the other type; none if they share nothing."""
     if left is BROKEN or right is BROKEN:
         return BROKEN
     if left == right:

@@ -6,9 +6,10 @@ from collections.abc import Iterable
 
 
 def closest(word: str, candidates: Iterable[str]) -> str | None:
-    """The candidate with the fewest typing slips between it and the word; the first one wins a tie, none if all are far.
+    """The candidate with the fewest typing slips between it and the word; the first one wins a tie.
 
-    A slip is a letter too many, too few, wrong, or swapped with its neighbour; a third of the letters may be wrong.
+    None if all are far away. A slip is a letter too many, too few, wrong, or swapped with its neighbour; a third of the
+    letters may be wrong.
     """
     best, fewest = None, allowance(word) + 1
     for candidate in candidates:
