@@ -208,12 +208,13 @@ class Brick:
         """Grant the brick the time it asks for; its next answer, or None if that was lost."""
         self.statistics.more_time += 1
         for _ in range(self._exchange.asks):
-            if self._tower.now() >= action.deadline:
+            answer = self._exchange.ask(self._numbers.proceed, self._replies, self._patience(action))
+            done = answer is not None and answer != self._numbers.more_time
+            if not done and self._tower.now() >= action.deadline:
                 raise OverdueError(
                     f"action {action.number} has not ended within its {action.timeout:g} s",
                     "give the action a longer timeout",
                 )
-            answer = self._exchange.ask(self._numbers.proceed, self._replies, self._patience(action))
             if answer is not None:
                 action.silences = 0
                 return answer

@@ -68,8 +68,8 @@ class Exchange:
             if heard in accept:
                 self.nonsense.clear()
                 return heard
-            # The echo of a serial tower comes before anything else; noise can hide where it begins.
-            if heard != number:
+            # An echo of which noise has hidden the beginning looks like a message.
+            if heard != number or self._late_digits:
                 self._stray(heard)
         return None
 
