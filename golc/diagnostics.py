@@ -86,7 +86,7 @@ class Code(Enum):
     SYNTAX = ("GL002", "the text does not follow the grammar")
     INDENTATION = ("GL003", "the indentation makes no block")
     MISSING = ("GL004", "a colon, a bracket or a block is missing")
-    FOREIGN = ("GL005", "the notation of another language")
+    FOREIGN = ("GL005", "a sign or word of another language, or the wrong one")
     RESERVED = ("GL006", "a word of the language is used as a name")
     STRING = ("GL007", "a string or a message cannot be read")
     NESTING = ("GL008", "the text is nested too deeply")

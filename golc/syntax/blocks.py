@@ -70,11 +70,10 @@ def missing_colon(failure: Failure) -> Diagnostic | None:
     line = failure.line or failure.line_before
     if not line or line[0] not in HEADS:
         return None
-    if failure.kind == "_INDENT" and line[0] in ("action", "exog", "device") and line[-1].type != "COLON":
-        pass
-    elif "COLON" not in failure.accepts or failure.brackets or _wants_name_before_colon(failure):
-        return None
-    elif failure.kind not in ("_NL", "_INDENT") and str(failure.bad) not in STATEMENTS | CLAUSES.keys():
+    may_end = line[0] in ("action", "exog", "device") and line[-1].type != "COLON"
+    follows = failure.kind == "_NL" or str(failure.bad) in STATEMENTS | CLAUSES.keys()
+    could_come = "COLON" in failure.accepts and not failure.brackets and not _of_variable(failure)
+    if not ((failure.kind == "_INDENT" and may_end) or (follows and could_come)):
         return None
     return failure.finding(
         Code.MISSING,
@@ -84,7 +83,7 @@ def missing_colon(failure: Failure) -> Diagnostic | None:
     )
 
 
-def _wants_name_before_colon(failure: Failure) -> bool:
+def _of_variable(failure: Failure) -> bool:
     """Whether the colon that could come belongs to a variable: ``pick x``."""
     return "IN" in failure.accepts and "AND" not in failure.accepts
 
@@ -107,11 +106,15 @@ def unexpected_indent(failure: Failure) -> Diagnostic | None:
 
 def lost_branch(failure: Failure) -> Diagnostic | None:
     """``else`` and the like at the beginning of a line that they do not go on with; ``choose`` without ``or``."""
-    word = str(failure.bad)
-    if failure.bad is not None and failure.begins_line() and word in BRANCHES:
+    word = _branch_word(failure)
+    if word is not None and word == "over" and "_OVER" in failure.accepts:
+        span = failure.at((word.end_pos or 0), (word.end_pos or 0))
+        return failure.finding(Code.MISSING, "the colon behind this `over` is missing", span, "end the line with `:`")
+    if word is not None:
         return failure.finding(
             Code.INDENTATION,
             f"this `{word}` belongs to no `{BRANCHES[word]}`",
+            failure.span(word),
             help=f"`{word}` stands in the column of its `{BRANCHES[word]}`, behind that one's block",
         )
     for accepted, branch in (("OR", "or"), ("AND", "and"), ("_OVER", "over")):
@@ -122,6 +125,9 @@ def lost_branch(failure: Failure) -> Diagnostic | None:
                 failure.gap(),
                 f"add `{branch}:` with a block, in the column of `{BRANCHES[branch]}`",
             )
+    if failure.accepts == {"_DEDENT"} and failure.previous == "unchanged":
+        message = "`otherwise unchanged` is the last line of an axiom"
+        return failure.finding(Code.SYNTAX, message, failure.span(failure.previous), "move it to the end")
     if "OTHERWISE" in failure.accepts and failure.kind in ("_DEDENT", "$END"):
         return failure.finding(
             Code.MISSING,
@@ -129,6 +135,15 @@ def lost_branch(failure: Failure) -> Diagnostic | None:
             failure.gap(),
             "end it with `otherwise unchanged`",
         )
+    return None
+
+
+def _branch_word(failure: Failure) -> Token | None:
+    """The word at the beginning of the line that should go on with a statement, read as a name or not fitting."""
+    if failure.bad is not None and failure.begins_line() and failure.bad in BRANCHES:
+        return failure.bad
+    if len(failure.line) == 1 and failure.line[0] in BRANCHES and failure.line[0].type == "NAME":
+        return failure.line[0]
     return None
 
 
@@ -179,9 +194,15 @@ def _last_before_next_line(failure: Failure, opening: Token) -> Token | None:
         if token.line != before.end_line and str(token) in STATEMENTS | CLAUSES.keys():
             return before
     closes = CLOSING_OF[opening.type] in failure.accepts
+    if failure.kind == "ASSIGN" and not (failure.line[0] in ("causes", "after", "define") and _first_assign(failure)):
+        return None
     if closes and (failure.kind in ("COLON", "ASSIGN", "WHEN", "WHERE", *CLOSING) or failure.begins_line()):
         return failure.previous
     return None
+
+
+def _first_assign(failure: Failure) -> bool:
+    return all(token.type != "ASSIGN" for token in failure.line)
 
 
 def empty_brackets(failure: Failure) -> Diagnostic | None:

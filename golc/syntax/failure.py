@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from lark import Token, UnexpectedCharacters, UnexpectedToken
 from lark.parsers.lalr_interactive_parser import InteractiveParser
@@ -13,6 +13,7 @@ from lark.parsers.lalr_interactive_parser import InteractiveParser
 from golc.diagnostics import Code, Diagnostic, Label, Span
 from golc.syntax.layout import CLOSING, OPENING
 from golc.syntax.parser import parser
+from golc.syntax.terminals import words
 
 LAYOUT = frozenset({"_NL", "_INDENT", "_DEDENT"})
 
@@ -134,17 +135,19 @@ def failure(part: Span, start: str, text: str) -> Failure | None:
     """Parse again, token by token, and stop where it fails; None if it does not."""
     interactive = parser().parse_interactive(text, start=start)
     stack = interactive.parser_state.state_stack
+    lex: Any = interactive.lexer_thread.lex
+    feed_eof: Any = interactive.feed_eof
     tokens: list[Token] = []
     before = current = list(stack)
     try:
-        for token in interactive.lexer_thread.lex(interactive.parser_state):
+        for token in lex(interactive.parser_state):
             interactive.feed_token(token)
             tokens.append(token)
             before, current = current, list(stack)
-        interactive.feed_eof(tokens[-1] if tokens else None)
+        feed_eof(tokens[-1] if tokens else None)
         return None
     except UnexpectedToken as error:
-        bad: Token | None = error.token
+        bad: Token | None = _as_word(error.token)
         place = (tokens[-1].end_pos or 0) if error.token.type == "$END" and tokens else error.token.start_pos or 0
     except UnexpectedCharacters as error:
         bad, place = None, error.pos_in_stream
@@ -152,7 +155,14 @@ def failure(part: Span, start: str, text: str) -> Failure | None:
     return Failure(part, tuple(tokens), bad, place, _accepts(interactive, current), _accepts(interactive, before))
 
 
+def _as_word(token: Token) -> Token:
+    """A word that came where only names are read as words: as the terminal that it is elsewhere."""
+    terminal = words().get(str(token)) if token.type == "NAME" else None
+    return token if terminal is None else Token.new_borrow_pos(terminal, str(token), token)
+
+
 def _accepts(interactive: InteractiveParser, stack: list[int]) -> frozenset[str]:
     """The terminals that could come when the parser's stack is this one."""
     interactive.parser_state.state_stack[:] = stack
-    return frozenset(interactive.accepts())
+    accepts: Any = interactive.accepts
+    return frozenset(accepts())

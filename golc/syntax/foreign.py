@@ -122,6 +122,8 @@ def _sign_at(failure: Failure) -> tuple[int, str] | None:
     starts = {place, *(token.start_pos or 0 for token in failure.tokens[-3:])}
     for sign in sorted((*SIGNS, *PHRASES), key=len, reverse=True):
         for start in range(place, place - len(sign), -1):
+            if sign == "?" and failure.previous is None:
+                continue
             if start in starts and text.startswith(sign, start) and start + len(sign) >= place + width:
                 return start, sign
     return None

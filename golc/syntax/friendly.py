@@ -1,7 +1,7 @@
 """What is wrong with a text that does not follow the grammar, in the words of its writer.
 
-Each hint recognises one kind of mistake by the token that does not fit, the terminals that would, the words before it and
-the open brackets; the first that recognises its own speaks.
+Each hint recognises one kind of mistake by the token that does not fit, the terminals that would, the words before it
+and the open brackets; the first that recognises its own speaks.
 """
 
 from __future__ import annotations

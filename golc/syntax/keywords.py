@@ -21,19 +21,26 @@ def no_declaration(failure: Failure) -> Diagnostic | None:
     if failure.kind == "_INDENT" or not found:
         return None
     span = failure.at(failure.place, failure.place + len(found))
+    if ":-" in failure.rest:
+        return _prolog(failure)
     if found in CLAUSES or found in STATEMENTS or found in BRANCHES:
         return _lost_line(failure, found)
     ours = OTHER_NAMES.get(found.lower()) or closest(found, DECLARATIONS)
     if ours is not None:
         return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, f"did you mean `{ours}`?")
-    if re.search(r":-|\.[ \t]*(%.*)?$", failure.rest):
-        message = "this is a clause of Prolog"
-        help = "begin a declaration with its kind: `fluent`, `action`, `exog`, `proc`, …"
-        return failure.finding(
-            Code.FOREIGN, message, failure.at(failure.place, failure.place + len(failure.rest)), help
-        )
+    if re.search(r"\.[ \t]*(%.*)?$", failure.rest):
+        return _prolog(failure)
     kinds = ", ".join(f"`{kind}`" for kind in DECLARATIONS[1:])
     return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, f"a declaration begins with {kinds}")
+
+
+def _prolog(failure: Failure) -> Diagnostic:
+    return failure.finding(
+        Code.FOREIGN,
+        "this is a clause of Prolog",
+        failure.at(failure.place, failure.place + len(failure.rest)),
+        "begin a declaration with its kind: `fluent`, `action`, `exog`, `proc`, …",
+    )
 
 
 def _lost_line(failure: Failure, word: str) -> Diagnostic:
@@ -71,6 +78,9 @@ def reserved(failure: Failure) -> Diagnostic | None:
     last = failure.tokens[-1] if failure.tokens else None
     if last is None or str(last) not in AFTER:
         return None
+    if failure.kind == "LPAR":
+        message, help = f"`{last}` is no function", f"after it stands {AFTER[str(last)]}"
+        return failure.finding(Code.SYNTAX, message, failure.span(last), help)
     return failure.finding(
         Code.RESERVED,
         f"`{last}` is a word of the language and cannot be a name",
@@ -89,8 +99,11 @@ AFTER = {
 
 def closest(word: str, words: Iterable[str]) -> str | None:
     """The word that was probably meant; short ones have to be nearer."""
-    found = difflib.get_close_matches(word.lower(), list(words), n=1, cutoff=0.7 if len(word) > 3 else 0.8)
-    return found[0] if found and len(word) > 2 else None
+    candidates, lower = list(words), word.lower()
+    swapped = [candidate for candidate in candidates if sorted(candidate) == sorted(lower)]
+    near = difflib.get_close_matches(lower, candidates, n=1, cutoff=0.7 if len(word) > 3 else 0.8)
+    found = swapped or (near if len(word) > 2 else [])
+    return found[0] if found else None
 
 
 def _words(terminals: Iterable[str]) -> list[str]:

@@ -32,11 +32,12 @@ class LayoutError(Exception):
 class Layout(PostLex):
     """Turns line ends into ``_NL``, ``_INDENT`` and ``_DEDENT``, outside of brackets; keeps no state between texts.
 
-    ``_NL`` and ``_DEDENT`` stand, without width, at the end of the token before them: so what a rule spans ends with its
-    last word, and what is missing is missing there.
+    ``_NL`` and ``_DEDENT`` stand, without width, at the end of the token before them: so what a rule spans ends with
+    its last word, and what is missing is missing there. With names accepted everywhere a word is never read as a
+    shorter one and a rest (``andy`` as ``and`` and ``y``); ``:=`` is never read as two signs.
     """
 
-    always_accept = ("_NL",)
+    always_accept = ("_NL", "NAME", "ASSIGN")
 
     def process(self, stream: Iterator[Token]) -> Iterator[Token]:
         """The tokens of a text with its layout; raises ``LayoutError``."""
@@ -100,8 +101,8 @@ _DECLARATION = re.compile(rf'(?:{"|".join(DECLARATIONS)})[ \t]+[A-Za-z"({{]')
 def split(text: str) -> list[Chunk]:
     """The declarations of a text: each begins at column 0, what stands before the first one is a chunk of its own.
 
-    Inside brackets only a line that looks like a declaration begins one, so that a forgotten bracket costs no more than its
-    own declaration. A loop over marks: neither brackets nor blocks can be deep enough to trouble it.
+    Inside brackets only a line that looks like a declaration begins one, so that a forgotten bracket costs no more than
+    its own declaration. A loop over marks: neither brackets nor blocks can be deep enough to trouble it.
     """
     chunks: list[Chunk] = []
     start, too_deep, brackets, levels = 0, None, 0, [0]

@@ -15,8 +15,8 @@ from golc.syntax.recover import recover
 def parse_file(source: Source, findings: Findings) -> ast.File | None:
     """The tree of a file, with every syntax error in it among the findings, in the order of the text.
 
-    What could not be read is left out of the tree; reading goes on at the next declaration in column 0. None if there is
-    nothing at all.
+    What could not be read is left out of the tree; reading goes on at the next declaration in column 0. None if there
+    is nothing at all.
     """
     found = Findings()
     file = _whole(source, found)

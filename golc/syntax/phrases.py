@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Label
@@ -18,7 +20,8 @@ CHANGED = {"define": "a definition", "causes": "an effect", "after": "an effect"
 def chained(failure: Failure) -> Diagnostic | None:
     """``a < b < c``, ``a iff b iff c``."""
     iff = failure.kind in ("IFF", "IMPLIES")
-    if failure.kind not in COMPARISONS | {"IFF", "IMPLIES"} or "AND" not in failure.accepts:
+    second = re.match(r"not\s+in\b", failure.rest)
+    if not (iff or second or failure.kind in COMPARISONS) or "AND" not in failure.accepts:
         return None
     words = _phrase(failure)
     first = next((token for token in reversed(words) if token.type in (("IFF",) if iff else COMPARISONS)), None)
@@ -27,8 +30,8 @@ def chained(failure: Failure) -> Diagnostic | None:
     quantifier = next((token for token in words[: words.index(first)] if token.type in QUANTIFIERS), None)
     return failure.finding(
         Code.SYNTAX,
-        f"`{first}` and `{failure.bad}` cannot be chained",
-        help=_unchain(first, str(failure.bad), quantifier),
+        f"`{first}` and `{second.group() if second else failure.bad}` cannot be chained",
+        help=_unchain(first, second.group() if second else str(failure.bad), quantifier),
         labels=(Label(failure.span(first), "the first one"),),
     )
 
@@ -74,7 +77,8 @@ def wrong_sign(failure: Failure) -> Diagnostic | None:
         return failure.finding(
             Code.FOREIGN, f"after the name of a `{first}` stands `:`, not `{failure.bad}`", help="write `:`"
         )
-    if failure.kind == "COLON" and failure.accepts & {"EQ", "ASSIGN"} and first in ("const", "type", "let", "define"):
+    named = len(failure.line) == 2 and first in ("const", "type", "let", "define")
+    if failure.kind == "COLON" and failure.accepts & {"EQ", "ASSIGN"} and named:
         sign = "=" if "EQ" in failure.accepts else ":="
         return failure.finding(
             Code.SYNTAX, f"after the name of a `{first}` stands `{sign}`", help=f"write `{sign}`; it has no type"
@@ -87,7 +91,8 @@ VALUED = frozenset({"const", "type", "static", "fluent", "let"})
 
 def statement_sign(failure: Failure) -> Diagnostic | None:
     """``f := e`` or ``f = e`` in the place of a statement."""
-    if failure.kind not in ("ASSIGN", "EQ", "CMP") or "_NL" not in failure.accepts or "AND" in failure.accepts:
+    infix = OPERATORS | {"ASSIGN", "AND", "OR", "IMPLIES", "IFF", "NOT", "LSQB"}
+    if failure.kind not in infix or not {"_NL"} <= failure.accepts <= {"_NL", "LPAR"}:
         return None
     if failure.kind == "ASSIGN":
         return failure.finding(
@@ -95,24 +100,26 @@ def statement_sign(failure: Failure) -> Diagnostic | None:
             "a program cannot change a fluent itself",
             help="declare an action with `causes` and call it; a name for a value is `let x = e:`",
         )
-    return failure.finding(Code.SYNTAX, "a condition is no statement", help="write `test` before it")
+    return failure.finding(Code.SYNTAX, "an expression is no statement", help="a condition is tested with `test …`")
 
 
 def late_not(failure: Failure) -> Diagnostic | None:
-    """``a = not b``."""
-    if failure.kind != "NOT" or failure.previous is None or failure.previous.type not in OPERATORS:
+    """``a = not b``, where ``not`` is read as a name."""
+    if len(failure.line) < 2 or failure.line[-1] != "not" or failure.line[-2].type not in OPERATORS:
         return None
+    operator, word = failure.line[-2:]
     return failure.finding(
         Code.SYNTAX,
-        f"`not` binds less tightly than the `{failure.previous}` before it",
-        help=f"put it in parentheses: `… {failure.previous} (not …)`",
+        f"`not` binds less tightly than the `{operator}` before it",
+        failure.span(word),
+        f"put it in parentheses: `… {operator} (not …)`",
     )
 
 
 def missing_dot(failure: Failure) -> Diagnostic | None:
     """A quantifier whose variables are not followed by a dot."""
     quantifier = _open_quantifier(failure)
-    if quantifier is None or failure.brackets[:0]:
+    if quantifier is None:
         return None
     if failure.rest.startswith(".") and {"COLON", "IN"} <= failure.accepts:
         return failure.finding(
@@ -200,17 +207,82 @@ def missing_text(failure: Failure) -> Diagnostic | None:
     )
 
 
+def last_comma(failure: Failure) -> Diagnostic | None:
+    """``{a, b,}``."""
+    if failure.kind not in CLOSING or failure.previous is None or failure.previous.type != "COMMA":
+        return None
+    message = "a comma stands between two elements, not behind the last"
+    return failure.finding(Code.SYNTAX, message, failure.span(failure.previous), "remove it")
+
+
+def comma(failure: Failure) -> Diagnostic | None:
+    """``test a, b``."""
+    if failure.kind != "COMMA" or "AND" not in failure.accepts:
+        return None
+    return failure.finding(Code.SYNTAX, "a comma does not join conditions", help="write `and`")
+
+
+def missing_unit(failure: Failure) -> Diagnostic | None:
+    """``wait 5``, ``search at most 20:``."""
+    if "S" in failure.accepts:
+        return failure.finding(Code.MISSING, "the unit of this time is missing", failure.gap(), "write `s`, seconds")
+    if "STEPS" in failure.accepts:
+        return failure.finding(Code.MISSING, "the word `steps` is missing", failure.gap(), "write `at most … steps`")
+    return None
+
+
+def missing_part(failure: Failure) -> Diagnostic | None:
+    """``x if c`` without ``else``, ``on some`` without ``where``, ``interrupts`` without ``on``."""
+    ends = failure.kind in ("_NL", "COLON", "COMMA", *CLOSING)
+    if ends and "ELSE" in failure.accepts and "AND" in failure.accepts:
+        return failure.finding(
+            Code.MISSING, "this `if` in an expression has no `else`", failure.gap(), "write `x if condition else y`"
+        )
+    if ends and "WHERE" in failure.accepts and failure.line[:2] == ["on", "some"]:
+        return failure.finding(
+            Code.MISSING, "this `on some` has no condition", failure.gap(), "write `on some x: type where condition:`"
+        )
+    if failure.accepts == {"ON"}:
+        help = "write `on condition:` with a block below it"
+        return failure.finding(Code.SYNTAX, "a line of `interrupts` begins with `on`", help=help)
+    return None
+
+
+def computed_bound(failure: Failure) -> Diagnostic | None:
+    """``1..n + 1`` as a type."""
+    line = failure.line
+    after_plus = failure.accepts == {"RANGE"} and len(line) > 1 and line[-2].type in ("PLUS", "MINUS")
+    if not any(token.type == "RANGE" for token in line):
+        return None
+    if not after_plus and not (failure.kind in ("MINUS", "STAR", "IDIV", "MOD") and "AND" not in failure.accepts):
+        return None
+    return failure.finding(Code.SYNTAX, "a computed bound stands in parentheses", help="write for example `1..(n + 1)`")
+
+
+def two_calls(failure: Failure) -> Diagnostic | None:
+    """``go home``."""
+    if failure.accepts != {"LPAR", "_NL"} or failure.previous is None:
+        return None
+    return failure.finding(
+        Code.SYNTAX,
+        f"`{failure.bad}` cannot follow the call of `{failure.previous}`",
+        help="arguments stand in parentheses, and each statement on a line of its own",
+    )
+
+
+def part_of_name(failure: Failure) -> Diagnostic | None:
+    """``robot.place``."""
+    name = failure.previous
+    if failure.kind != "DOT" or name is None or name.type != "NAME" or "AND" not in failure.accepts:
+        return None
+    help = f"what belongs to a thing is a fluent with an argument: `f({name})`"
+    return failure.finding(Code.FOREIGN, f"`{name}` has no parts", help=help)
+
+
 def missing_operand(failure: Failure) -> Diagnostic | None:
     """An operator, a comma or a word without the expression that belongs behind it."""
     if not failure.wants_expression or failure.previous is None:
         return None
-    if failure.kind in CLOSING and failure.previous.type == "COMMA":
-        return failure.finding(
-            Code.SYNTAX,
-            "a comma stands between two elements, not behind the last",
-            failure.span(failure.previous),
-            "remove it",
-        )
     return failure.finding(
         Code.MISSING, f"an expression is missing after `{failure.previous}`", failure.gap(), "write what belongs there"
     )
@@ -243,9 +315,8 @@ def missing_token(failure: Failure) -> Diagnostic | None:
             f"the line should end before `{failure.bad}`",
             help="one declaration, clause or statement a line",
         )
-    return failure.finding(
-        Code.MISSING, f"{title(only)} is missing after `{failure.previous}`", failure.gap(), f"write {title(only)}"
-    )
+    help = "an interval is written `1..6`" if only == "RANGE" else f"write {title(only)}"
+    return failure.finding(Code.MISSING, f"{title(only)} is missing after `{failure.previous}`", failure.gap(), help)
 
 
 def anything(failure: Failure) -> Diagnostic:
@@ -260,12 +331,19 @@ def anything(failure: Failure) -> Diagnostic:
 
 HINTS: tuple[Hint, ...] = (
     statement_sign,
+    last_comma,
+    comma,
+    computed_bound,
+    part_of_name,
+    missing_unit,
+    missing_part,
     missing_type,
     missing_bracket,
     missing_name,
     missing_text,
     missing_operand,
     missing_operator,
+    two_calls,
     missing_token,
     anything,
 )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 from golc.syntax.parser import parser
 
@@ -27,8 +28,16 @@ def word_of(terminal: str) -> str | None:
     title = TITLES.get(terminal)
     if title is not None:
         return title.strip("`") if title.startswith("`") else None
+    if terminal.startswith("_"):
+        return None
     value = parser().get_terminal(terminal).pattern.value
     return value if value.isalpha() else None
+
+
+@cache
+def words() -> dict[str, str]:
+    """The terminal of each word of the language."""
+    return {word: terminal.name for terminal in parser().terminals if (word := word_of(terminal.name)) is not None}
 
 
 def title(terminal: str) -> str:
