@@ -248,7 +248,7 @@ class Executive(Intake):
             message = "the program waits, and nothing can happen any more: no source of exogenous actions is open"
             help_ = "`--stop-when-idle 0` ends such a run with success"
             raise ProgramError(Diagnostic(Code.WAITS_FOR_EVER, message, label.span, help=help_))
-        self._verdict = End.IDLE, f"idle: the program waits at {label.span.source.name}:{label.span.line}"
+        self._verdict = End.IDLE, f"idle: the program waits, at line {label.span.line}"
 
     def _stay_blocked(self, node: Node) -> None:
         """Nothing can be done: wait for an event, if one can come."""

@@ -40,7 +40,7 @@ class Reasons:
         return f"{place} {procedure}" if procedure else place
 
 
-def one_line(span: Span, longest: int = 60) -> str:
+def one_line(span: Span, longest: int = 39) -> str:
     """The text of a place in one line, cut off where it is long."""
     text = " ".join(span.text.split())
     return text if len(text) <= longest else text[: longest - 1] + "…"
@@ -57,7 +57,7 @@ def _statements(body: st.Statement) -> Iterator[tuple[st.Statement, str]]:
                 stack.extend((part, condition) for part in parts)
             case st.If(condition=term, then=then, otherwise=otherwise):
                 stack.append((then, f"if {one_line(term.span)}"))
-                stack.append((otherwise, f"else of: if {one_line(term.span)}"))
+                stack.append((otherwise, f"if not {one_line(term.span)}"))
             case st.While(condition=term, body=inner):
                 stack.append((inner, f"while {one_line(term.span)}"))
             case st.Choose(branches=branches) | st.Together(branches=branches) | st.Prefer(branches=branches):

@@ -183,7 +183,9 @@ class _Session:
         if self.simulated:
             speed = "" if self.settings.speed == 1 else f", {self.settings.speed:g} times as fast as a real one"
             where = f"on a simulated brick{speed}" + ("" if self.settings.port else " (no --port was given)")
-        self.say(f"{self.theory.name}: {self.program} {where}".rstrip())
+        if self.voice.verbosity >= 0:
+            title = self.voice.style.paint(BOLD, f"{self.theory.name}: {self.program}")
+            self.voice.write(f"{MARGIN}{title} {where}".rstrip())
         if sys.stdin is not None and sys.stdin.isatty():
             self.say(
                 f"type an exogenous action such as {example(self.theory, exogenous=True)}, or one of "

@@ -33,8 +33,8 @@ from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.types import Value, show, show_call
 
-ACTION_WIDTH = 26
-DEVICE_WIDTH = 12
+WHAT, WHO = 30, 12
+"""Widths of the columns: what happens and who does it; the rest of a line says why, or what has changed."""
 MARGIN = " " * 11
 """As wide as the time and the space behind it."""
 
@@ -51,7 +51,7 @@ class Style:
 
     def paint(self, code: str, text: str) -> str:
         """A text in a color, given as the numbers of the terminal's escape sequence."""
-        return f"\x1b[{code}m{text}\x1b[0m" if self.color and text else text
+        return f"\x1b[{code}m{text}\x1b[0m" if self.color and code and text.strip() else text
 
     def sign(self, fancy: str, plain: str) -> str:
         """A sign that the terminal can show."""
@@ -97,75 +97,71 @@ class Trace:
             case TakenIn():
                 yield from self._taken_in(happening)
             case Waiting(time=time, span=span):
-                sign = self._style.sign("…", "..")
-                yield self._line(
-                    time, self._dim(f"  {sign} {one_line(span):{ACTION_WIDTH + DEVICE_WIDTH}} {self._at(span)}")
-                )
+                yield self._row(time, DIM, f"  {self._sign('…', '..')} {one_line(span)}", rest=self._style.paint(DIM, self._at(span)))
             case Started(state=state):
-                yield from (self._dim(MARGIN + line) for line in summary(self._dynamics, state))
+                yield from (self._style.paint(DIM, MARGIN + line) for line in summary(self._dynamics, state))
             case Ended():
                 yield from self._ended(happening)
+            case Failed(time=time, error=error):
+                yield self._row(time, RED, f"  {self._sign('✗', 'x')} {error}")
+                yield from (f"{MARGIN}    {line}" for line in self._help(error))
+            case Refused(diagnostics=diagnostics):
+                self._complain(diagnostics)
             case _:
                 yield from self._rare(happening)
 
     def _rare(self, happening: Happening) -> Iterator[str]:
-        style = self._style
         match happening:
             case Said(time=time, text=text):
-                yield self._line(time, style.paint(BOLD, style.sign("“{}”", '"{}"').format(text)))
-            case Failed(time=time, error=error):
-                yield self._line(time, style.paint(RED, f"  {style.sign('✗', 'x')} {error}"))
-                yield from (f"{MARGIN}    {line}" for line in self._help(error))
+                yield self._row(time, BOLD, self._sign("“{}”", '"{}"').format(text))
             case Remedied(time=time, remedy=remedy) if remedy is not Remedy.STOP:
                 words = {Remedy.RETRY: "tries again", Remedy.NEXT: "looks for another way"}
-                yield self._line(time, self._dim(f"    {words[remedy]}"))
+                yield self._row(time, DIM, f"    {words[remedy]}")
             case Dropped(time=time, action=action, args=args, source=source, reason=reason):
-                arrow = style.sign("←", "<-")
-                yield self._line(
-                    time, style.paint(RED, f"{arrow} {show_call(action, args)} from {source} dropped: {reason}")
-                )
-            case Refused(diagnostics=diagnostics):
-                self._complain(diagnostics)
+                yield self._row(time, RED, f"{self._in} {show_call(action, args)}", source, f"dropped: {reason}")
             case Blocked(time=time, reasons=reasons, sources=sources):
-                yield self._line(time, style.paint(YELLOW, f"  blocked; waits for {' or '.join(sources)}"))
+                yield self._row(time, YELLOW, f"  blocked; waits for {' or '.join(sources)}")
                 yield from (f"{MARGIN}    {reason}" for reason in reasons)
             case Reset(time=time, source=source):
-                yield self._line(time, style.paint(YELLOW, f"the devices were told to stop ({source}: !abort)"))
+                yield self._row(time, YELLOW, f"the devices were told to stop ({source}: !abort)")
             case Tested(time=time, span=span) if self._verbosity > 0:
-                yield self._line(
-                    time, self._dim(f"  - {one_line(span):{ACTION_WIDTH + DEVICE_WIDTH}} {self._at(span)}")
-                )
+                yield self._row(time, DIM, f"  - {one_line(span)}", rest=self._style.paint(DIM, self._at(span)))
             case SourceEnded(time=time, source=source) if self._verbosity > 0:
-                yield self._line(time, self._dim(f"  {source} has ended"))
+                yield self._row(time, DIM, f"  {source} has ended")
 
     def _begun(self, begun: Begun) -> str:
-        arrow = self._style.sign("→", "->")
-        action = self._style.paint(CYAN, f"{arrow} {show_call(begun.action, begun.args):{ACTION_WIDTH}}")
         condition = self._reasons.where(begun.span).condition
-        why = self._dim(self._at(begun.span) + (f": {condition}" if condition else ""))
-        return self._line(begun.time, f"{action} {begun.device:{DEVICE_WIDTH}} {why}")
-
-    def _at(self, span: Span) -> str:
-        return self._reasons.line(span)
+        why = self._at(begun.span) + (f": {condition}" if condition else "")
+        what = f"{self._sign('→', '->')} {show_call(begun.action, begun.args)}"
+        return self._row(begun.time, CYAN, what, begun.device, self._style.paint(DIM, why))
 
     def _done(self, done: Done) -> Iterator[str]:
         changes = self._changes(done.before, done.after)
         if done.duration < INSTANT and not changes and not done.results and self._verbosity < 1:
             return
-        tick = self._style.paint(GREEN, f"  {self._style.sign('✓', 'ok')} {done.duration:.2f} s")
-        answer = f"  answered {', '.join(map(show, done.results))}" if done.results else ""
-        yield self._line(done.time, f"{tick}{self._style.paint(BOLD, answer)}{changes}")
+        answer = f"answered {', '.join(map(show, done.results))}" if done.results else ""
+        tick = f"  {self._sign('✓', 'ok')} {done.duration:.2f} s"
+        yield self._row(done.time, GREEN, tick, rest="; ".join(part for part in (answer, changes) if part))
         for surprise in done.surprises:
-            what = surprise.fluent or "what it senses"
-            text = f"    {what} was thought to be {show(surprise.expected)}"
-            yield MARGIN + self._style.paint(YELLOW, text)
+            text = f"{surprise.fluent or 'what it senses'} was thought to be {show(surprise.expected)}"
+            yield self._row(None, YELLOW, "", rest=self._style.paint(YELLOW, text))
 
     def _taken_in(self, event: TakenIn) -> Iterator[str]:
-        arrow = self._style.sign("←", "<-")
-        call = self._style.paint(YELLOW, f"{arrow} {show_call(event.action, event.args):{ACTION_WIDTH}}")
-        yield self._line(event.time, f"{call} {event.source:{DEVICE_WIDTH}}{self._changes(event.before, event.after)}")
+        call = f"{self._in} {show_call(event.action, event.args)}"
+        yield self._row(event.time, YELLOW, call, event.source, self._changes(event.before, event.after))
         if event.impossible:
-            yield MARGIN + self._style.paint(YELLOW, "  which the theory thinks impossible here; the world is right")
+            text = "the theory thinks that impossible here; the world is right"
+            yield self._row(None, YELLOW, "", rest=self._style.paint(YELLOW, text))
+
+    def _at(self, span: Span) -> str:
+        return self._reasons.line(span)
+
+    @property
+    def _in(self) -> str:
+        return self._sign("←", "<-")
+
+    def _sign(self, fancy: str, plain: str) -> str:
+        return self._style.sign(fancy, plain)
 
     def _changes(self, before: State, after: State) -> str:
         if before == after:
@@ -177,7 +173,7 @@ class Trace:
             for (name, args), old, new in zip(names, before, after, strict=True)
             if old != new
         ]
-        return "  " + ", ".join(changed)
+        return ", ".join(changed)
 
     def _help(self, error: DeviceError) -> Iterator[str]:
         if error.help:
@@ -189,20 +185,19 @@ class Trace:
         good = ended.end in (End.FINAL, End.IDLE, End.STOPPED)
         if self._verbosity < 0 and good:
             return
-        counts = f"{ended.actions} actions, {ended.exogenous} exogenous actions, {ended.time:.1f} s"
+        counts = f"{ended.actions} actions and {ended.exogenous} exogenous actions in {ended.time:.1f} s"
         yield ""
-        yield self._line(
-            ended.time, self._style.paint(GREEN if good else RED, f"end: {ended.message}") + f" ({counts})"
-        )
+        yield self._row(ended.time, GREEN if good else RED, f"end: {ended.message}")
+        yield MARGIN + self._style.paint(DIM, counts)
         yield from (MARGIN + line for line in summary(self._dynamics, ended.state))
         for device, why in ended.unstopped:
-            yield self._style.paint(RED, f"{MARGIN}the device {device} could not be told to stop: {why}")
+            yield MARGIN + self._style.paint(RED, f"the device {device} could not be told to stop: {why}")
 
-    def _line(self, time: float, text: str) -> str:
-        return f"{self._dim(f'{time:7.2f} s')}  {text}".rstrip()
-
-    def _dim(self, text: str) -> str:
-        return self._style.paint(DIM, text)
+    def _row(self, time: float | None, code: str, what: str, who: str = "", rest: str = "") -> str:
+        """A line in columns; a long first column runs into the second where that is empty."""
+        clock = MARGIN if time is None else self._style.paint(DIM, f"{time:7.2f} s") + "  "
+        columns = f"{what:{WHAT}} {who:{WHO}}" if who else f"{what:{WHAT + 1 + WHO}}"
+        return f"{clock}{self._style.paint(code, columns if rest else columns.rstrip())}  {rest}".rstrip()
 
 
 def summary(dynamics: Dynamics, state: State) -> Iterator[str]:

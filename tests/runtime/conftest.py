@@ -1,0 +1,188 @@
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from textwrap import dedent
+from typing import Any
+
+import pytest
+
+from golc.diagnostics import DeviceError, Findings, Source
+from golc.loading import load
+from golc.planning.planner import executable
+from golc.runtime.devices.base import Args, Device, Router
+from golc.runtime.executive import Executive, Outcome
+from golc.runtime.happenings import Begun, Happening, Said, TakenIn
+from golc.runtime.inbox import Inbox, Item, Report
+from golc.runtime.policy import Policy
+from golc.syntax.parse import parse_file
+from golc.theory.elaborate import elaborate
+from golc.theory.theory import Action, BasicActionTheory
+from golc.theory.types import show_call
+
+ROOT = Path(__file__).parent.parent.parent
+DELIVERY = ROOT / "examples/delivery/delivery.gl"
+
+Perform = Callable[[str, Args], Args]
+
+
+def theory_of(text: str) -> BasicActionTheory:
+    """The theory that a text declares, without the checks."""
+    source = Source("trial.gl", dedent(text))
+    findings = Findings()
+    file = parse_file(source, findings)
+    assert file is not None
+    theory = elaborate(file, source, findings, {})
+    assert theory is not None, findings.diagnostics
+    return theory
+
+
+class ScriptedDevice(Device):
+    """Does every action by a function of the test and remembers what it was told."""
+
+    def __init__(self, perform: Perform | None = None) -> None:
+        super().__init__("world")
+        self.told: list[str] = []
+        self._perform = perform or (lambda action, args: ())
+
+    def open(self) -> None:
+        self.told.append("open")
+
+    def handles(self, action: str, args: Args) -> bool:
+        return True
+
+    def perform(self, action: str, args: Args) -> Args:
+        self.told.append(show_call(action, args))
+        return self._perform(action, args)
+
+    def abort(self) -> None:
+        self.told.append("abort")
+
+    def close(self) -> None:
+        self.told.append("close")
+
+
+@dataclass
+class OpenSource:
+    """A source that may report anything and never ends, unless a test says so."""
+
+    name: str = "test"
+    ended: bool = False
+
+    def may_report(self, action: Action) -> bool:
+        return action.exogenous
+
+    def start(self) -> None:
+        """The test puts the items into the inbox."""
+
+    def close(self) -> None:
+        self.ended = True
+
+
+class ScriptedInbox(Inbox):
+    """An inbox in which the next batch of a script arrives when the loop waits; when there is none, nothing does."""
+
+    def __init__(self, batches: Sequence[Sequence[Item]] = ()) -> None:
+        super().__init__()
+        self.batches = [list(batch) for batch in batches]
+
+    def wait(self, timeout: float | None = None) -> bool:
+        if not self.items and self.batches:
+            self.items.extend(self.batches.pop(0))
+        return bool(self.items)
+
+
+@dataclass
+class Run:
+    """An executive in a scripted world, and everything that happened in it."""
+
+    executive: Executive
+    device: ScriptedDevice
+    inbox: ScriptedInbox
+    happened: list[Happening] = field(default_factory=list)
+
+    def run(self) -> Outcome:
+        self.executive.observers.append(self.happened.append)
+        return self.executive.run()
+
+    def story(self) -> list[str]:
+        """Actions as they begin, exogenous actions with ``<``, messages in quotes, in order."""
+        lines = []
+        for happening in self.happened:
+            match happening:
+                case Begun(action=action, args=args):
+                    lines.append(show_call(action, args))
+                case TakenIn(action=action, args=args):
+                    lines.append("<" + show_call(action, args))
+                case Said(text=text):
+                    lines.append(f'"{text}"')
+        return lines
+
+    def only(self, kind: type[Happening]) -> list[Any]:
+        """What happened of one kind."""
+        return [happening for happening in self.happened if type(happening) is kind]
+
+    def value(self, fluent: str, *args: Any) -> Any:
+        return self.executive.dynamics.value(self.executive.state, fluent, args)
+
+
+Starter = Callable[..., Run]
+
+
+@pytest.fixture
+def start() -> Starter:
+    """Makes a run of a text or a theory: ``start(text, batches, perform, policy)``."""
+
+    def make(
+        what: str | BasicActionTheory,
+        batches: Sequence[Sequence[Item]] = (),
+        perform: Perform | None = None,
+        policy: Policy | None = None,
+        source: OpenSource | None = None,
+        procedure: str = "control",
+    ) -> Run:
+        theory = theory_of(what) if isinstance(what, str) else what
+        device, inbox = ScriptedDevice(perform), ScriptedInbox(batches)
+        policy = policy or Policy(stop_when_idle=0, retry_after=0)
+        sources = [source or OpenSource()]
+        made = executable(theory, procedure)
+        return Run(Executive(made, Router([device], theory), inbox, sources, policy), device, inbox)
+
+    return make
+
+
+@pytest.fixture
+def delivery() -> BasicActionTheory:
+    return load(DELIVERY)
+
+
+@pytest.fixture
+def event() -> Callable[..., Report]:
+    """An exogenous action that is reported: ``event("request_delivery", 2, 5)``."""
+    return lambda action, *args: Report(action, args, "test")
+
+
+@pytest.fixture
+def failing() -> Callable[[int], Perform]:
+    """A device that fails the first n times."""
+
+    def make(times: int) -> Perform:
+        left = [times]
+
+        def perform(action: str, args: Args) -> Args:
+            left[0] -= 1
+            if left[0] >= 0:
+                raise DeviceError(f"{show_call(action, args)} does not work", help="repair it")
+            return ()
+
+        return perform
+
+    return make
+
+
+@pytest.fixture
+def case() -> Callable[[str], dict[str, Any]]:
+    """A recorded case by its name."""
+    return lambda name: json.loads((ROOT / f"tests/cases/{name}.json").read_text())
