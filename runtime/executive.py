@@ -33,7 +33,7 @@ from golc.runtime.happenings import (
     Remedy,
     Said,
     Started,
-    Tested,
+    Stepped,
     Waiting,
 )
 from golc.runtime.inbox import Inbox, Source
@@ -157,7 +157,7 @@ class Executive(Intake):
             case Say(text=text, span=span) if self.observers:
                 self.tell(Said(self.clock.now(), text, span))
             case Silent(span=span) if self.observers:
-                self.tell(Tested(self.clock.now(), span))
+                self.tell(Stepped(self.clock.now(), span))
             case Abort(text=text, span=span):
                 raise ProgramError(Diagnostic(Code.ABORTED, text or "the program aborts", span))
         if quiet >= CIRCLES:

@@ -33,7 +33,7 @@ class Started(Happening):
 
 
 @dataclass(frozen=True, slots=True)
-class Tested(Happening):
+class Stepped(Happening):
     """A step without an action."""
 
     span: Span

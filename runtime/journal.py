@@ -32,8 +32,8 @@ from golc.runtime.happenings import (
     Said,
     SourceEnded,
     Started,
+    Stepped,
     TakenIn,
-    Tested,
     Waiting,
 )
 from golc.situation.dynamics import Dynamics
@@ -86,7 +86,7 @@ class Journal:
         match happening:
             case Started(state=state):
                 return {**self._header(), "state": self._dynamics.show(state)}
-            case Tested(span=span):
+            case Stepped(span=span):
                 return {"event": "test", "at": str(span)}
             case Begun(device=device, span=span):
                 return {"event": "begin", **_call(happening), "device": device, "at": str(span)}

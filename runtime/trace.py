@@ -24,8 +24,8 @@ from golc.runtime.happenings import (
     Said,
     SourceEnded,
     Started,
+    Stepped,
     TakenIn,
-    Tested,
     Waiting,
 )
 from golc.runtime.reasons import Reasons, one_line
@@ -97,7 +97,12 @@ class Trace:
             case TakenIn():
                 yield from self._taken_in(happening)
             case Waiting(time=time, span=span):
-                yield self._row(time, DIM, f"  {self._sign('…', '..')} {one_line(span)}", rest=self._style.paint(DIM, self._at(span)))
+                yield self._row(
+                    time,
+                    DIM,
+                    f"  {self._sign('…', '..')} {one_line(span)}",
+                    rest=self._style.paint(DIM, self._at(span)),
+                )
             case Started(state=state):
                 yield from (self._style.paint(DIM, MARGIN + line) for line in summary(self._dynamics, state))
             case Ended():
@@ -124,7 +129,7 @@ class Trace:
                 yield from (f"{MARGIN}    {reason}" for reason in reasons)
             case Reset(time=time, source=source):
                 yield self._row(time, YELLOW, f"the devices were told to stop ({source}: !abort)")
-            case Tested(time=time, span=span) if self._verbosity > 0:
+            case Stepped(time=time, span=span) if self._verbosity > 0:
                 yield self._row(time, DIM, f"  - {one_line(span)}", rest=self._style.paint(DIM, self._at(span)))
             case SourceEnded(time=time, source=source) if self._verbosity > 0:
                 yield self._row(time, DIM, f"  {source} has ended")
