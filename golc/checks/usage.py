@@ -71,8 +71,16 @@ class _Walk:
                 self.push(
                     [part for part in children(node) if not isinstance(part, (tree.Ident, tree.Parameter))], inner
                 )
+            case tree.Const(value=value):
+                self.push([value], {})
+            case tree.TypeDecl(type=type_):
+                # Its enumerations declare their symbols, which is no mention of them.
+                pieces = type_.pieces if isinstance(type_, tree.UnionType) else (type_,)
+                self.push([piece for piece in pieces if not isinstance(piece, tree.EnumType)], {})
+            case tree.Device(items=items):
+                self.push(items, {})
             case _:
-                self.push(children(node), {})
+                pass  # what else there is, elaboration refuses
         while self.stack:
             self.visit(*self.stack.pop())
 
@@ -105,6 +113,8 @@ class _Walk:
                 self.push([body], self.bind(scope, [name], node))
             case tree.Binding():
                 self.binding(node)
+            case tree.Setting(value=value):
+                self.push([value], {})
             case tree.Ident(text=text):
                 self.mention(text, scope)
             case _:

@@ -6,6 +6,7 @@ while it is being resolved depends on itself.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol, TypeAlias
@@ -118,8 +119,8 @@ class Context:
     def _circular(self, circle: list[Entry]) -> None:
         circle = [*dict.fromkeys(circle)]
         first = circle[0]
-        pairs = zip(circle[1:], [*circle[2:], first], strict=True)
-        labels = [Label(entry.span, f"which needs `{after.name}`") for entry, after in pairs]
+        steps = itertools.pairwise([*circle, first])
+        labels = [Label(entry.span, f"which needs `{after.name}`") for entry, after in steps if entry is not first]
         self.error(
             Code.CIRCULAR,
             f"`{first.name}` depends on itself",

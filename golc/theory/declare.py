@@ -110,7 +110,7 @@ class _Collector:
             span,
             "declared again",
             labels=(Label(first.span, "first declared here"),),
-            help=f"choose another name, for `{first.name}` can only be one of them",
+            help="remove one of them, or choose another name",
         )
 
     # A symbol belongs to one enumeration. A declared enumeration that is part of a larger one (or repeats an earlier

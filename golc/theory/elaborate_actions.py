@@ -56,7 +56,7 @@ def fluent(context: Context, entry: Entry) -> Fluent | None:
     initial = term(context, scope, node.initial, signature.type)
     if node.type is None and initial.type is not BROKEN and initial.type.kinds.isdisjoint(BOOL.kinds):
         message = f"{what} has no type, which makes it relational (`bool`), but its initial value is not a formula"
-        help_ = f"write its type: `fluent {node.name.text}: … = {initial.span.text}`"
+        help_ = f"write its type: `fluent {node.name.text}: {initial.type} = {initial.span.text}`"
         context.error(Code.TYPE_MISMATCH, message, initial.span, f"this is of type `{initial.type}`", help_)
         return None
     if not fits(context, initial, signature.type, what) or not closed_term(context, initial, "an initial value"):

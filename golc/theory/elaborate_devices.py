@@ -206,16 +206,27 @@ def _arg(
                 labels = (Label(parameter.span, "declared here"),)
                 context.error(Code.BINDING, message, node.span, "not a part of that type", labels=labels)
             return Parameter(name.text, type_, span=name.span)
-        case tree.Ident(text=name) if name not in context.names.values.entries and not context.names.assumes(name):
-            help_ = f"write its type: `{name}: {parameter.type}`"
-            message = f"`{name}` is neither a constant nor a parameter with its type"
-            context.error(Code.BINDING, message, node.span, "not a constant", help_)
+        case tree.Ident(text=name) if name not in context.names.values.entries:
+            _unknown_arg(context, node, parameter)
             return parameter
         case tree.Ident():
             value = context.constants(context, tree.Apply(node, span=node.span), parameter.type)
         case _:
             value = context.constants(context, node, parameter.type)
-    return parameter if value is None else Fixed(value.value)
+    return Fixed(None if value is None else value.value)
+
+
+def _unknown_arg(context: Context, node: tree.Ident, parameter: Parameter) -> None:
+    if context.names.assumes(node.text) or parameter.type is BROKEN:
+        return
+    similar = context.names.similar(node.text, [Kind.SYMBOL, Kind.CONSTANT], 0)
+    if similar is None:
+        help_ = f"write its type: `{node.text}: {parameter.type}`"
+        message = f"`{node.text}` is neither a constant nor a parameter with its type"
+        context.error(Code.BINDING, message, node.span, "not a constant", help_)
+    else:
+        message = f"unknown {similar.kind} `{node.text}`"
+        context.error(Code.UNKNOWN_NAME, message, node.span, "not declared", similar.help, similar.labels)
 
 
 def _part_of(type_: Type, whole: Type) -> bool:

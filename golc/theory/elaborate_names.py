@@ -12,7 +12,7 @@ from golc.theory.elaborate_types import home
 from golc.theory.fitting import BROKEN, strip_optional
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import Literal, Variable
-from golc.theory.types import Enumeration, Type, show
+from golc.theory.types import BOOL, Enumeration, Type, show
 
 TERMS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.CONSTANT, Kind.SYMBOL)
 CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC)
@@ -45,6 +45,8 @@ def resolve(context: Context, scope: Scope, node: tree.Apply, hint: Type | None)
             return None if constant is None else Literal(constant.value, type=constant.type, span=node.span)
         case Kind.SYMBOL:
             return Literal(entry.name, type=home(context, entry), span=node.span)
+        case Kind.STATIC if not entry.arity and not node.args:
+            return _fixed(context, entry, node)
         case Kind.TYPE:
             context.unsupported(f"the list of the values of `{entry.name}` is", node.name.span)
             return None
@@ -52,6 +54,14 @@ def resolve(context: Context, scope: Scope, node: tree.Apply, hint: Type | None)
             return None  # their declarations are not supported yet, which is said there
         case _:
             return context.signature(entry)
+
+
+def _fixed(context: Context, entry: Entry, node: tree.Apply) -> Literal | None:
+    """The value of a static without parameters."""
+    static = context.static(entry)
+    if static is None or not isinstance(static.body, Literal):
+        return None
+    return Literal(static.body.value, type=static.type, span=node.span)
 
 
 def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding, entry: Entry, given: int) -> bool:
@@ -75,9 +85,7 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
     wanted = " or ".join(dict.fromkeys(kind.value.removeprefix("exogenous ") for kind in kinds))
     if value is not None:
         message = f"`{name.text}` is {value.kind.phrase}, not an {wanted}"
-        help_ = (
-            f"`test {name.text}` goes on only if it holds" if value.kind in CALLS and Kind.PROCEDURE in kinds else None
-        )
+        help_ = f"`test {name.text}` goes on only if it holds" if _is_formula(context, value, kinds) else None
         labels = (Label(value.span, "declared here"),)
         context.error(Code.MISUSED_NAME, message, name.span, f"an {wanted} is needed here", help_, labels)
         return None
@@ -89,6 +97,12 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
     message = f"unknown {similar.kind} `{name.text}`"
     context.error(Code.UNKNOWN_ACTION, message, name.span, "not declared", similar.help, similar.labels)
     return None
+
+
+def _is_formula(context: Context, value: Entry, kinds: Iterable[Kind]) -> bool:
+    """Whether a name that stands as a statement is probably a forgotten ``test``."""
+    signature = context.signature(value) if value.kind in CALLS and Kind.PROCEDURE in kinds else None
+    return signature is not None and signature.type == BOOL
 
 
 def unknown_fluent(context: Context, name: tree.Ident, given: int) -> None:
@@ -122,6 +136,8 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     variables = () if given else tuple(scope.locals)
     similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
+    if similar is None and hint is BROKEN and not given:
+        return  # probably a value of the type that is missing, which has been said
     if similar is None:
         what, help_ = ("fluent", f"declare it: `fluent {name.text}(…) = …`") if given else ("name", _declare(name.text))
         context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)

@@ -84,8 +84,13 @@ def fits(context: Context, found: Term, needed: Type, what: str) -> bool:
 
 def mismatch(context: Context, found: Term, needed: str, what: str, help: str | None = None) -> None:
     """Report a term of the wrong type."""
-    message = f"`{_shown(found)}` is {_described(found)}, but {what} needs {needed}"
-    context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {_described(found)}", help)
+    if found.type == NONE:
+        message = f"{what} needs {needed}, and `none` is no such value"
+        context.error(Code.TYPE_MISMATCH, message, found.span, "never `none`", help)
+    else:
+        type_ = f"of type {describe(found.type)}"
+        message = f"`{_shown(found)}` is {type_}, but {what} needs {needed}"
+        context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {type_}", help)
 
 
 def _cure(found: Term, needed: Type) -> str | None:
@@ -94,10 +99,6 @@ def _cure(found: Term, needed: Type) -> str | None:
     if needed == BOOL:
         return f"compare it: `{_shown(found)} = …`"
     return None
-
-
-def _described(found: Term) -> str:
-    return "`none`" if found.type == NONE else f"of type {describe(found.type)}"
 
 
 def _shown(found: Term) -> str:
@@ -128,7 +129,8 @@ def term(context: Context, scope: Scope, node: tree.Expr, hint: Type | None = No
             op = Operator.MINIMUM if kind == "min" else Operator.MAXIMUM
             return _numeric(context, op, [_integer(context, scope, arg, f"`{kind}`") for arg in args], node.span)
         case _:
-            context.unsupported(_unsupported(node), node.span)
+            if hint is not BROKEN:  # otherwise it is of a type that is not supported, which has been said
+                context.unsupported(_unsupported(node), node.span)
             return broken(node.span)
 
 
@@ -294,7 +296,7 @@ def _infix(context: Context, scope: Scope, node: tree.Binary, left: Term) -> Ter
         return Operation(LOGIC[op], (left, formula(context, scope, right_node, f"`{op}`")), type=BOOL, span=span)
     if op in ARITHMETIC:
         left = left if fits(context, left, INT, f"`{op}`") else broken(left.span)
-        right = _integer(context, scope, right_node, f"`{op}`")
+        right = fitting(context, scope, right_node, BROKEN if left.type is BROKEN else INT, f"`{op}`")
         return _numeric(context, ARITHMETIC[op], [left, right], span)
     right = term(context, scope, right_node, left.type)
     if op in EQUALITY:
@@ -313,17 +315,20 @@ def _kinds(found: Term) -> frozenset[str]:
 
 def _equality(context: Context, op: Operator, left: Term, right: Term, span: Span) -> Term:
     if not _comparable(left, right):
-        message = (
-            f"`{_shown(left)}` ({_plain(left)}) and `{_shown(right)}` ({_plain(right)}) can never be equal: "
-            "their types have nothing in common"
-        )
-        context.error(Code.TYPE_MISMATCH, message, span, "always the same answer")
+        message = f"{_both(left, right)} can never be equal"
+        context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common")
         return broken(span)
     return Operation(op, (left, right), type=BOOL, span=span)
 
 
-def _plain(found: Term) -> str:
-    return describe(found.type)
+def _both(left: Term, right: Term) -> str:
+    return f"{_typed(left)} and {_typed(right)}"
+
+
+def _typed(found: Term) -> str:
+    """A term with its type, for a message."""
+    text, type_ = _shown(found), strip_optional(found.type)
+    return f"`{text}`" if found.type == NONE else f"`{text}`, which is of type `{type_}`,"
 
 
 def _comparable(left: Term, right: Term) -> bool:
@@ -338,7 +343,7 @@ def _ordering(context: Context, op: Operator, left: Term, right: Term, span: Spa
         return Operation(op, (left, right), type=BOOL, span=span)
     order = _order(left, right) if _comparable(left, right) else None
     if order is None:
-        message = f"`{_shown(left)}` ({_plain(left)}) and `{_shown(right)}` ({_plain(right)}) have no order"
+        message = f"{_both(left, right)} have no order"
         context.error(Code.TYPE_MISMATCH, message, span, "integers, or values of one enumeration, have an order")
         return broken(span)
     return Operation(op, (left, right), type=BOOL, span=span, order=order)
@@ -373,7 +378,7 @@ def _membership(context: Context, scope: Scope, element: Term, node: tree.Expr |
     if within is BROKEN or element.type is BROKEN:
         return broken(span)
     if _kinds(element).isdisjoint(within.kinds):
-        message = f"`{_shown(element)}` ({_plain(element)}) can never be in {describe(within)}"
+        message = f"{_typed(element)} can never be in {describe(within)}"
         context.error(Code.TYPE_MISMATCH, message, span, "always false")
         return broken(span)
     return Membership(element, within, type=BOOL, span=span)
@@ -434,11 +439,8 @@ def _conditional(context: Context, scope: Scope, node: tree.IfElse, hint: Type |
     if type_ is None and hint is not None and overlap(then.type, hint) and overlap(otherwise.type, hint):
         type_ = hint
     if type_ is None:
-        message = (
-            f"`{_shown(then)}` ({_plain(then)}) and `{_shown(otherwise)}` ({_plain(otherwise)}) are the two values "
-            "of one term, but have no type in common"
-        )
-        context.error(Code.TYPE_MISMATCH, message, node.span)
+        message = f"{_both(then, otherwise)} cannot be two values of one term"
+        context.error(Code.TYPE_MISMATCH, message, node.span, "their types have nothing in common")
         return broken(node.span)
     if BROKEN in (condition.type, type_):
         return broken(node.span)

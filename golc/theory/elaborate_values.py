@@ -137,7 +137,7 @@ def _static_body(context: Context, signature: Signature, node: tree.Static, expr
     scope = parameter_scope(context, signature.parameters, node.parameters)
     what = f"static `{signature.entry.name}`"
     found = term(context, scope, expression, signature.type)
-    help_ = f"write its type: `static {node.name.text}: … = …`"
+    help_ = f"write its type: `static {node.name.text}: {found.type} = …`"
     if node.type is None and found.type is not BROKEN and found.type.kinds.isdisjoint(BOOL.kinds):
         message = f"{what} has no type, which makes it a relation (`bool`), but its value is {describe(found.type)}"
         context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {describe(found.type)}", help_)
