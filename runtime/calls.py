@@ -214,8 +214,8 @@ def _value(
             findings.error(Code.EVENT, "a value is needed, not an expression", arg.span, help=f"a {describe(type_)}")
             return None
     if value not in type_:
-        help_ = f"{what} is a {describe(type_)}"
-        findings.error(Code.EVENT, f"`{arg.span.text.strip()}` is not a {describe(type_)}", arg.span, "", help_)
+        message = f"{what} is a {describe(type_)}, not `{arg.span.text.strip()}`"
+        findings.error(Code.EVENT, message, arg.span)
         return None
     return (value,)
 

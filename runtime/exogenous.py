@@ -67,7 +67,8 @@ class Lines:
         name = place.text[1:].strip()
         if name in COMMANDS:
             return Command(cast(Literal["state", "history", "abort", "stop"], name), self._source, reply)
-        help_ = did_you_mean(name, COMMANDS) or "there are " + ", ".join(f"!{command}" for command in COMMANDS)
+        known = [f"!{command}" for command in COMMANDS]
+        help_ = did_you_mean(f"!{name}", known) or "there are " + ", ".join(known)
         where = Span(place, 0, len(place.text))
         return self._refusal(place, Diagnostic(Code.EVENT, f"unknown command `!{name}`", where, help=help_))
 
