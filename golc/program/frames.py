@@ -1,7 +1,7 @@
 """What surrounds a part of a program while its transitions are looked for, and puts the residual back in its place.
 
 A chain of frames is to a part what a stack is to a function call: the search for transitions walks down into the
-program without recursion, and each transition found is wrapped by the frames from the inside out.
+program without recursion, and a transition that is taken is wrapped by the frames from the inside out.
 """
 
 from __future__ import annotations
@@ -11,27 +11,40 @@ from typing import TYPE_CHECKING
 from golc.program.nodes import Node
 
 if TYPE_CHECKING:
+    from golc.program.program import Program
     from golc.program.rules import Interrupts
-    from golc.program.step import Machine
 
 
 class Token:
-    """Whether a part has had a transition: what stands below it in a ``prefer`` or ``interrupts`` depends on that."""
+    """Whether a part has had a transition: what stands below it in a ``prefer`` or ``interrupts`` depends on that.
 
-    __slots__ = ("used",)
+    ``outer`` is the token of the next such part outwards, of which this one is a part.
+    """
 
-    def __init__(self) -> None:
+    __slots__ = ("outer", "used")
+
+    def __init__(self, outer: Frame | None) -> None:
         self.used = False
+        self.outer = outer.token if outer is not None else None
+
+    def use(self) -> None:
+        """The part has had a transition, and so has everything around it."""
+        token: Token | None = self
+        while token is not None and not token.used:
+            token.used = True
+            token = token.outer
 
 
 class Frame:
-    """The base of all frames; ``outer`` is the next frame outwards."""
+    """The base of all frames; ``outer`` is the next frame outwards, ``token`` the innermost one that is waited for."""
 
-    __slots__ = ("outer",)
+    __slots__ = ("outer", "token")
 
-    outer: Frame | None
+    def __init__(self, outer: Frame | None, token: Token | None = None) -> None:
+        self.outer = outer
+        self.token: Token | None = token if token is not None or outer is None else outer.token
 
-    def wrap(self, machine: Machine, residual: Node) -> Node:
+    def wrap(self, program: Program, residual: Node) -> Node:
         """The residual of the whole, given that of the part."""
         raise NotImplementedError
 
@@ -42,34 +55,31 @@ class Then(Frame):
     __slots__ = ("rest",)
 
     def __init__(self, rest: Node, outer: Frame | None) -> None:
+        super().__init__(outer)
         self.rest = rest
-        self.outer = outer
 
-    def wrap(self, machine: Machine, residual: Node) -> Node:
-        return machine.program.sequence(residual, self.rest)
+    def wrap(self, program: Program, residual: Node) -> Node:
+        return program.sequence(residual, self.rest)
 
 
 class Branch(Frame):
     """The part is one of the branches of a ``together`` or ``prefer``; in the latter it has a token."""
 
-    __slots__ = ("index", "token", "whole")
+    __slots__ = ("index", "whole")
 
     def __init__(self, whole: Node, index: int, token: Token | None, outer: Frame | None) -> None:
+        super().__init__(outer, token)
         self.whole = whole
         self.index = index
-        self.token = token
-        self.outer = outer
 
-    def wrap(self, machine: Machine, residual: Node) -> Node:
-        if self.token is not None:
-            self.token.used = True
-        return machine.program.with_branch(self.whole, self.index, residual)
+    def wrap(self, program: Program, residual: Node) -> Node:
+        return program.with_branch(self.whole, self.index, residual)
 
 
 class Handler(Frame):
     """The part is the body of an interrupt."""
 
-    __slots__ = ("bodies", "env", "index", "rule", "token")
+    __slots__ = ("bodies", "env", "index", "rule")
 
     def __init__(
         self,
@@ -80,14 +90,20 @@ class Handler(Frame):
         token: Token,
         outer: Frame | None,
     ) -> None:
+        super().__init__(outer, token)
         self.rule = rule
         self.env = env
         self.bodies = bodies
         self.index = index
-        self.token = token
-        self.outer = outer
 
-    def wrap(self, machine: Machine, residual: Node) -> Node:
-        self.token.used = True
+    def wrap(self, program: Program, residual: Node) -> Node:
         bodies = (*self.bodies[: self.index], residual, *self.bodies[self.index + 1 :])
-        return machine.program.interrupts(self.rule, self.env, bodies)
+        return program.interrupts(self.rule, self.env, bodies)
+
+
+def resume(program: Program, residual: Node, frame: Frame | None) -> Node:
+    """The residual of the whole program, given that of a part."""
+    while frame is not None:
+        residual = frame.wrap(program, residual)
+        frame = frame.outer
+    return residual

@@ -14,7 +14,7 @@ Neither recurses into a part that may be nested without bound: the walks (``walk
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
 from golc.diagnostics import Span
 from golc.program.frames import Branch, Handler, Then, Token
@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 Env: TypeAlias = tuple[Value, ...]
 Evaluate: TypeAlias = Callable[[State, Env], Any]
 """A compiled term: its value in a state and an environment."""
+
+Bodies: TypeAlias = tuple[Node | None, ...]
+"""The residual body of each interrupt of a block, or none where it is not active."""
 
 Found: TypeAlias = tuple[Label, Node] | None
 
@@ -434,7 +437,7 @@ class Lower(Rule):
         whole, index, above = node
         if above is not None and above.used:
             return None
-        token = Token()
+        token = Token(walk.outer)
         if index + 1 < len(whole.operands):
             walk.push_task(self, (whole, index + 1, token))
         walk.push_inside(whole.operands[index], Branch(whole, index, token, walk.outer))
@@ -472,19 +475,26 @@ class Interrupts(Rule):
     def __init__(self, span: Span, handlers: tuple[On, ...]) -> None:
         super().__init__(span)
         self.handlers = handlers
-        self.idle: tuple[Node | None, ...] = (None,) * len(handlers)
+        self.idle: Bodies = (None,) * len(handlers)
         self.active = Active(span, self)
         self.attempt = Attempt(self)
 
     def trans(self, walk: Walk, node: Node) -> Found:
-        return self.attempt.trans(walk, (node.operands, self.idle, 0, Token()))
+        return self.attempt.trans(walk, Turn(node.operands, self.idle, self.idle, 0, Token(walk.outer)))
 
     def final(self, proof: Proof, node: Node) -> bool:
         return next(proof.machine.transitions(node, proof.state), None) is None
 
+    def frame(self, walk: Walk, turn: Turn) -> Handler:
+        """What surrounds the body of the interrupt whose turn it is."""
+        return Handler(self, turn.env, turn.going_on, turn.next, turn.token, walk.outer)
+
 
 class Active(Rule):
-    """Interrupts of which some are active: operands environment and, for each interrupt, its residual body or none."""
+    """Interrupts of which some are active: operands environment and, for each interrupt, its residual body or none.
+
+    A body that is final goes on if it can; as soon as anything else of the block steps, it has ended.
+    """
 
     def __init__(self, span: Span, interrupts: Interrupts) -> None:
         super().__init__(span)
@@ -492,7 +502,9 @@ class Active(Rule):
 
     def trans(self, walk: Walk, node: Node) -> Found:
         env, bodies = node.operands
-        return self.interrupts.attempt.trans(walk, (env, bodies, 0, Token()))
+        machine, state = walk.machine, walk.state
+        going_on = tuple([body if body is None or not machine.final(body, state) else None for body in bodies])
+        return self.interrupts.attempt.trans(walk, Turn(env, bodies, going_on, 0, Token(walk.outer)))
 
     def final(self, proof: Proof, node: Node) -> bool:
         """The active bodies are final and nothing can step."""
@@ -503,50 +515,60 @@ class Active(Rule):
         )
 
 
+class Turn(NamedTuple):
+    """The interrupts from the ``next`` one on have their turn, if none above has had a transition (then ``token`` is used).
+
+    ``bodies``: the residual body of each active interrupt. ``going_on``: those of them that are not final.
+    """
+
+    env: Env
+    bodies: Bodies
+    going_on: Bodies
+    next: int
+    token: Token
+
+
 class Attempt(Rule):
-    """The interrupts from one on, if none above has had a transition: operand (env, bodies, index, token)."""
+    """The interrupts from one on: the operand is a turn."""
 
     def __init__(self, interrupts: Interrupts) -> None:
         super().__init__(interrupts.span)
         self.interrupts = interrupts
-        self.fire = Fire(self)
+        self.fire = Fire(interrupts)
 
-    def trans(self, walk: Walk, node: tuple[Env, tuple[Node | None, ...], int, Token]) -> Found:
-        env, bodies, index, token = node
-        if token.used:
+    def trans(self, walk: Walk, node: Turn) -> Found:
+        if node.token.used:
             return None
-        if index + 1 < len(bodies):
-            walk.push_task(self, (env, bodies, index + 1, token))
-        body = bodies[index]
-        if body is None:
-            return self.fire.trans(walk, (node, None))
-        if walk.machine.final(body, walk.state):
-            walk.push_task(self.fire, (node, None))
-        walk.push_inside(body, Handler(self.interrupts, env, bodies, index, token, walk.outer))
+        index = node.next
+        if index + 1 < len(node.bodies):
+            walk.push_task(self, node._replace(next=index + 1))
+        body = node.bodies[index]
+        if node.going_on[index] is None:
+            handler = self.interrupts.handlers[index]
+            walk.push_task(self.fire, (node, handler.environments(walk.state, node.env)))
+        if body is not None:
+            walk.push_inside(body, self.interrupts.frame(walk, node))
         return None
 
 
 class Fire(Rule):
     """An interrupt that is not active, or whose body is final: the first binding whose body can step."""
 
-    def __init__(self, attempt: Attempt) -> None:
-        super().__init__(attempt.span)
-        self.attempt = attempt
+    def __init__(self, interrupts: Interrupts) -> None:
+        super().__init__(interrupts.span)
+        self.interrupts = interrupts
 
-    def trans(self, walk: Walk, node: tuple[Any, Iterator[Env] | None]) -> Found:
-        (env, bodies, index, token), environments = node
-        if token.used:
+    def trans(self, walk: Walk, node: tuple[Turn, Iterator[Env]]) -> Found:
+        turn, environments = node
+        if turn.token.used:
             return None
-        handler = self.attempt.interrupts.handlers[index]
-        if environments is None:
-            environments = handler.environments(walk.state, env)
+        handler = self.interrupts.handlers[turn.next]
         inner = next(environments, None)
         if inner is None:
-            walk.machine.blame(self, "no interrupt", handler, env)
+            walk.machine.blame(self, "no interrupt", handler, turn.env)
             return None
-        walk.push_task(self, (node[0], environments))
-        body = walk.machine.program.at(handler.body, inner)
-        walk.push_inside(body, Handler(self.attempt.interrupts, env, bodies, index, token, walk.outer))
+        walk.push_task(self, node)
+        walk.push_inside(walk.machine.program.at(handler.body, inner), self.interrupts.frame(walk, turn))
         return None
 
 

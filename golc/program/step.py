@@ -8,6 +8,7 @@ from itertools import pairwise
 from typing import Protocol
 
 from golc.program.blame import Blamed, Blocked, explain
+from golc.program.frames import resume
 from golc.program.labels import Act, Label, Transition, Wait
 from golc.program.nodes import Node
 from golc.program.program import Program
@@ -50,7 +51,8 @@ class Machine:
 
     def transitions(self, node: Node, state: State) -> Iterator[Transition]:
         """The transitions in program order, each computed when it is asked for."""
-        return iter(Walk(self, state, node))
+        for label, residual, frame in Walk(self, state, node):
+            yield Transition(label, resume(self.program, residual, frame))
 
     def final(self, node: Node, state: State, entered: Entered = NONE_ENTERED) -> bool:
         """Whether the program may end in this state."""
@@ -60,15 +62,17 @@ class Machine:
         """The transition that the online loop takes: a test step if there is one, otherwise the first action step,
         otherwise a wait; none if the program is blocked."""
         action = wait = None
-        for transition in self.transitions(node, state):
-            label = transition.label
+        for found in Walk(self, state, node):
+            label = found[0]
             if isinstance(label, Act):
-                action = action or transition
+                action = action or found
             elif isinstance(label, Wait):
-                wait = wait or transition
+                wait = wait or found
             else:
-                return transition
-        return action or wait
+                action = found
+                break
+        taken = action or wait
+        return None if taken is None else Transition(taken[0], resume(self.program, taken[1], taken[2]))
 
     def successor(self, state: State, label: Label) -> State:
         """The state after a transition, without what sensing or the world might add."""

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from golc.program.frames import Frame
-from golc.program.labels import Transition
+from golc.program.labels import Label
 from golc.program.nodes import Node
 from golc.situation.layout import State
 
@@ -35,18 +35,17 @@ class Walk:
         self.entered = NONE_ENTERED
         self.stack: list[tuple[Rule, Any, Frame | None, Entered]] = [(node.rule, node, None, NONE_ENTERED)]
 
-    def __iter__(self) -> Iterator[Transition]:
+    def __iter__(self) -> Iterator[tuple[Label, Node, Frame | None]]:
+        """The label of each transition, what is left of the part that makes it, and what surrounds that part."""
         stack = self.stack
         while stack:
             rule, node, self.outer, self.entered = stack.pop()
             found = rule.trans(self, node)
             if found is not None:
-                label, residual = found
-                frame = self.outer
-                while frame is not None:
-                    residual = frame.wrap(self.machine, residual)
-                    frame = frame.outer
-                yield Transition(label, residual)
+                outer = self.outer
+                if outer is not None and outer.token is not None:
+                    outer.token.use()
+                yield found[0], found[1], outer
 
     def push(self, node: Node) -> None:
         """The part's transitions are the node's own; what is pushed last comes first."""

@@ -36,6 +36,8 @@ exog set_x(n: int):
     causes x := n
 exog set_p:
     causes p := true
+exog clear_p:
+    causes p := false
 """
 
 

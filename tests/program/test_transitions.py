@@ -267,6 +267,29 @@ def test_a_pre_empted_interrupt_goes_on_where_it_was(start: Start) -> None:
     assert after.run() == ["act(9)", "inc", "inc", "inc", "inc", "inc", "b", "inc"]
 
 
+def test_a_final_body_has_ended_when_something_else_of_the_block_steps(start: Start) -> None:
+    text = """
+        interrupts:
+            {}
+            on not p:
+                a
+                wait until p
+            {}
+    """
+    first = "on x = 7:\n                inc"
+    for program in (start(text.format("", first)), start(text.format(first, ""))):
+        answered = program.take().event("set_p").event("set_x", 7)
+        assert answered.labels() == ["inc"]
+        assert answered.take().final
+        assert (
+            answered.take()
+            .event(
+                "set_p",
+            )
+            .final
+        )
+
+
 def test_interrupts_are_final_when_none_is_active_and_none_can_step(start: Start) -> None:
     program = start("""
         interrupts:

@@ -1,0 +1,162 @@
+"""``search`` online: look ahead before the first step, follow the way, look again when the world has changed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+Start = Callable[..., Any]
+
+BLOCK = """
+    search:
+        choose:
+            a
+            test x = 7
+        or:
+            b
+            inc
+            c
+            test x = 1
+        or:
+            b
+            act(3)
+"""
+
+
+def test_search_takes_no_step_that_leads_nowhere(start: Start) -> None:
+    assert start(BLOCK).run() == ["b", "inc", "c"]
+
+
+def test_without_search_the_first_step_is_committed(start: Start) -> None:
+    body = BLOCK.replace("search:", "if true:")
+    assert start(body).run() == ["a", "blocked"]
+
+
+def test_search_that_finds_no_way_is_blocked_and_has_done_nothing(start: Start) -> None:
+    program = start("""
+        search:
+            a
+            never
+    """)
+    assert program.run() == ["blocked"]
+    assert [blocked.text for blocked in program.machine.why_blocked(program.node, program.state)] == [
+        "`search` finds no way to the end of its block"
+    ]
+
+
+def test_the_way_is_kept_if_its_choices_still_lead_to_the_end(start: Start) -> None:
+    program = start("""
+        search:
+            star:
+                inc
+            test x >= 2
+            a
+    """)
+    assert program.run() == ["inc", "inc", "a"]
+    assert program.take().event("set_x", 5).run() == ["inc", "a"]
+
+
+def test_the_rest_is_searched_anew_if_the_choices_lead_nowhere(start: Start) -> None:
+    program = start("""
+        search:
+            inc
+            choose:
+                test x = 1
+                a
+            or:
+                b
+    """)
+    assert program.run() == ["inc", "a"]
+    assert program.take().event("set_x", 4).run() == ["b"]
+
+
+def test_an_alternative_already_passed_is_lost(start: Start) -> None:
+    program = start("""
+        search:
+            choose:
+                a
+                test x = 0
+            or:
+                b
+    """)
+    assert program.take().event("set_x", 4).run() == ["blocked"]
+
+
+def test_search_may_end_without_a_step(start: Start) -> None:
+    program = start("""
+        search:
+            star:
+                a
+        b
+    """)
+    assert program.labels()[0] == "b"
+
+
+def test_a_branch_beside_the_search_may_change_the_state(start: Start) -> None:
+    program = start("""
+        together:
+            search:
+                choose:
+                    a
+                    test x = 0
+                or:
+                    c
+                    test x = 0
+                    c
+        and:
+            test p
+            inc
+    """)
+    assert program.run() == ["a", "blocked"]
+    assert program.event("set_p").take(1).take(1).run() == ["blocked"]
+
+
+def test_all_transitions_of_a_higher_part_are_looked_at(start: Start) -> None:
+    program = start("""
+        search:
+            prefer:
+                choose:
+                    a
+                    test p
+                or:
+                    b
+            over:
+                c
+    """)
+    assert program.run() == ["b", "c"]
+
+
+def test_every_witness_is_tried(start: Start) -> None:
+    program = start("""
+        search:
+            pick n: digit:
+                test on(n)
+                off(n)
+                test not on(2)
+    """)
+    assert program.run() == ["off(2)"]
+
+
+def test_a_waiting_condition_is_a_test_of_look_ahead(start: Start) -> None:
+    program = start("""
+        search:
+            inc
+            wait until x = 1
+            a
+    """)
+    assert program.run() == ["inc", "a"]
+
+
+def test_a_hundred_steps_are_planned_once(start: Start) -> None:
+    program = start("""
+        search:
+            while x < 100:
+                inc
+    """)
+    machine, node, state, programs = program.machine, program.node, program.state, set()
+    for _ in range(100):
+        label, node = machine.decide(node, state)
+        state = machine.successor(state, label)
+        programs.add(node.operands[0])
+    assert machine.final(node, state)
+    assert len(programs) == 1
