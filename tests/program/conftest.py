@@ -70,7 +70,7 @@ class Running:
 
     def run(self, most: int = 10**6) -> list[str]:
         """What the online loop does until the program is final or blocked, tests left out."""
-        done = []
+        done: list[str] = []
         current = self
         for _ in range(most):
             if current.final:

@@ -280,14 +280,7 @@ def test_a_final_body_has_ended_when_something_else_of_the_block_steps(start: St
     for program in (start(text.format("", first)), start(text.format(first, ""))):
         answered = program.take().event("set_p").event("set_x", 7)
         assert answered.labels() == ["inc"]
-        assert answered.take().final
-        assert (
-            answered.take()
-            .event(
-                "set_p",
-            )
-            .final
-        )
+        assert answered.take().event("clear_p").labels() == ["a"]
 
 
 def test_interrupts_are_final_when_none_is_active_and_none_can_step(start: Start) -> None:
