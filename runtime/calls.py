@@ -207,14 +207,16 @@ def _value(
         case tree.Apply(name=tree.Ident(text=name), args=()) if name in theory.constants:
             value = theory.constants[name].value
         case tree.Apply(name=tree.Ident(text=name), args=()):
-            help_ = did_you_mean(name, _names(type_)) or f"{what} is a {describe(type_)}"
+            help_ = did_you_mean(name, _names(type_)) or f"{what} is of type {describe(type_)}"
             findings.error(Code.EVENT, f"unknown value `{name}`", arg.span, "not a value", help_)
             return None
         case _:
-            findings.error(Code.EVENT, "a value is needed, not an expression", arg.span, help=f"a {describe(type_)}")
+            findings.error(
+                Code.EVENT, "a value is needed, not an expression", arg.span, help=f"a value of {describe(type_)}"
+            )
             return None
     if value not in type_:
-        message = f"{what} is a {describe(type_)}, not `{arg.span.text.strip()}`"
+        message = f"{what} is of type {describe(type_)}, not `{arg.span.text.strip()}`"
         findings.error(Code.EVENT, message, arg.span)
         return None
     return (value,)

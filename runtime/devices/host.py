@@ -80,7 +80,7 @@ class Host(Device):
         if isinstance(meant, (int, str, bool, type(None))) and meant in type_:
             return meant
         call = f"`{function_name(binding)}` in {self._path}"
-        raise DeviceError(f"{call} returned {value!r}, which is not a {describe(type_)}")
+        raise DeviceError(f"{call} returned {value!r}, which is not of type {describe(type_)}")
 
 
 def function_name(binding: Binding) -> str:

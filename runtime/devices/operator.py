@@ -77,6 +77,8 @@ def _read_value(line: str, type_: Type, theory: BasicActionTheory, binding: Bind
     read = read_value(theory, type_, Span(source, 0, len(line)), findings) if line else None
     if read is None:
         said = findings.diagnostics[0] if findings.diagnostics else None
-        what = f"{said.message}{f': {said.help}' if said.help else ''}" if said else f"type a {describe(type_)}"
+        what = (
+            f"{said.message}{f': {said.help}' if said.help else ''}" if said else f"type a value of {describe(type_)}"
+        )
         raise WrongAnswerError(what)
     return read[0]

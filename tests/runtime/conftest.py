@@ -12,6 +12,7 @@ import pytest
 from golc.diagnostics import DeviceError, Findings, Source
 from golc.loading import load
 from golc.planning.planner import executable
+from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
 from golc.runtime.executive import Executive, Outcome
 from golc.runtime.happenings import Begun, Happening, Said, TakenIn
@@ -133,7 +134,7 @@ Starter = Callable[..., Run]
 
 @pytest.fixture
 def start() -> Starter:
-    """Makes a run of a text or a theory: ``start(text, batches, perform, policy)``."""
+    """Makes a run of a text or a theory, in which time stands still: ``start(text, batches, perform, policy)``."""
 
     def make(
         what: str | BasicActionTheory,
@@ -148,7 +149,8 @@ def start() -> Starter:
         policy = policy or Policy(stop_when_idle=0, retry_after=0)
         sources = [source or OpenSource()]
         made = executable(theory, procedure)
-        return Run(Executive(made, Router([device], theory), inbox, sources, policy), device, inbox)
+        frozen = Clock(lambda: 0.0, 0.0)
+        return Run(Executive(made, Router([device], theory), inbox, sources, policy, frozen), device, inbox)
 
     return make
 

@@ -64,9 +64,9 @@ def test_a_blank_line_is_nothing(delivery: BasicActionTheory, line: str) -> None
         ("push_go_button(1)", "`push_go_button` takes no arguments, not 1; write for example `push_go_button`"),
         (
             "request_delivery(2, 9)",
-            "`to` of `request_delivery` is a station (1..6), not `9`",
+            "`to` of `request_delivery` is of type station (1..6), not `9`",
         ),
-        ("request_delivery(2, true)", "`to` of `request_delivery` is a station (1..6), not `true`"),
+        ("request_delivery(2, true)", "`to` of `request_delivery` is of type station (1..6), not `true`"),
         ("!sate", "unknown command `!sate`; did you mean `!state`?"),
         ("!", "unknown command `!`; there are !state, !history, !abort, !stop"),
         ("2 + 3", "`2 + 3` is not an action; write an exogenous action, as in `request_delivery(6, 6)`"),

@@ -64,7 +64,7 @@ def test_the_whole_file_is_read_and_every_wrong_line_is_told_at_its_place(delive
         "write `at 3 s: EVENT` or `on ACTION after 2.5 s: EVENT`",
     )
     assert findings[2][2] == "unknown exogenous action `push_button`"
-    assert findings[3][2] == "`to` of `request_delivery` is a station (1..6), not `9`"
+    assert findings[3][2] == "`to` of `request_delivery` is of type station (1..6), not `9`"
     assert findings[4][2] == "the exogenous action is missing after the colon"
 
 
@@ -87,11 +87,11 @@ def test_the_whole_file_is_read_and_every_wrong_line_is_told_at_its_place(delive
             "`request_delivery` takes 2 arguments (origin: station, to: station), not 1",
             "write for example `request_delivery(6, 6)`",
         ),
-        ("at 1 s: request_delivery(2, 1 + 1)", "a value is needed, not an expression", "a station (1..6)"),
+        ("at 1 s: request_delivery(2, 1 + 1)", "a value is needed, not an expression", "a value of station (1..6)"),
         (
             "at 1 s: request_delivery(two, 1)",
             "unknown value `two`",
-            "`origin` of `request_delivery` is a station (1..6)",
+            "`origin` of `request_delivery` is of type station (1..6)",
         ),
         (
             "on 2nd signal_arrival once after 1 s: push_go_button",

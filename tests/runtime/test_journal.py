@@ -1,0 +1,159 @@
+"""The journal: what it says, that it is never torn, and how it is read."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from golc.diagnostics import DeviceError, ProgramError
+from golc.runtime.inbox import Refusal, Report
+from golc.runtime.journal import Journal, fingerprint, read_journal
+from golc.theory.theory import BasicActionTheory
+
+Start = Callable[..., Any]
+
+TRIAL = """
+domain trial
+const limit = 2
+type digit = 0..limit
+type colour = {red, green}
+fluent x: digit = 0
+fluent seen: colour = red
+action set_x(n: digit):
+    causes x := n
+action look:
+    senses seen
+exog become(n: digit):
+    poss n != x
+    causes x := n
+proc control:
+    set_x(1)
+    look
+    say "x is {x}"
+    wait
+    test x = 1
+"""
+
+
+def journalled(start: Start, path: Path, text: str = TRIAL, **world: Any) -> tuple[Any, list[dict[str, Any]]]:
+    run = start(text, **world)
+    journal = Journal(path, run.executive.dynamics, "control", ())
+    run.executive.observers.append(journal)
+    try:
+        run.run()
+    except ProgramError:
+        pass
+    finally:
+        journal.close()
+    return run, list(read_journal(path))
+
+
+def test_everything_that_happened_is_there_in_order(start: Start, tmp_path: Path) -> None:
+    def perform(action: str, args: object) -> tuple[str, ...]:
+        return ("green",) if action == "look" else ()
+
+    batches = [[Refusal("nonsense", "stdin", ()), Report("become", (2,), "tcp")]]
+    _, records = journalled(start, tmp_path / "j", batches=batches, perform=perform)
+
+    assert [record["event"] for record in records] == [
+        "start", "begin", "done", "begin", "done", "say", "wait", "refused", "exogenous", "blocked", "end",
+    ]  # fmt: skip
+    begin, done = records[3:5]
+    assert (begin["action"], begin["args"], begin["device"], begin["at"]) == ("look", [], "world", "trial.gl:17:5")
+    assert (done["results"], done["surprises"]) == (["green"], {"seen": "green"})
+    assert records[5]["text"] == "x is 1"
+    assert records[8]["source"] == "tcp"
+    assert records[8]["args"] == [2]
+    assert records[9]["reasons"][0]["values"] == {"x": 2}
+    end = records[-1]
+    assert (end["reason"], end["state"], end["actions"]) == ("failed", {"x": 2, "seen": "green"}, 2)
+    assert {record["time"] for record in records} == {0.0}
+
+
+def test_it_begins_with_what_was_run(start: Start, tmp_path: Path) -> None:
+    run, records = journalled(start, tmp_path / "j")
+
+    first = records[0]
+    assert (first["domain"], first["procedure"], first["args"]) == ("trial", "control", [])
+    assert first["file"] == str(Path("trial.gl").resolve())
+    assert first["fingerprint"] == fingerprint(run.executive.dynamics.theory)
+    assert first["state"] == {"x": 0, "seen": "red"}
+
+
+def test_a_fingerprint_changes_with_a_constant(start: Start) -> None:
+    theory = start(TRIAL).executive.dynamics.theory
+    other = start(TRIAL.replace("limit = 2", "limit = 3")).executive.dynamics.theory
+
+    assert fingerprint(theory) != fingerprint(other)
+    assert fingerprint(theory) == fingerprint(start(TRIAL).executive.dynamics.theory)
+
+
+def test_each_record_is_on_disk_before_anything_further_happens(start: Start, tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    seen: list[str] = []
+
+    def perform(action: str, args: object) -> tuple[()]:
+        seen.append(json.loads(path.read_bytes().splitlines()[-1])["event"])
+        return ()
+
+    journalled(start, path, TRIAL.replace("    look\n", ""), perform=perform)
+
+    assert seen == ["begin"]
+
+
+def test_an_existing_journal_is_not_overwritten(delivery: BasicActionTheory, start: Start, tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    path.write_text("precious\n")
+
+    with pytest.raises(FileExistsError):
+        Journal(path, start(delivery).executive.dynamics, "control", ())
+
+    assert path.read_text() == "precious\n"
+
+
+def test_a_folder_that_is_not_there_is_told(delivery: BasicActionTheory, start: Start, tmp_path: Path) -> None:
+    with pytest.raises(DeviceError, match=r"cannot write the journal .*: No such file or directory"):
+        Journal(tmp_path / "no/j", start(delivery).executive.dynamics, "control", ())
+
+
+def test_a_full_disk_tears_no_line(start: Start, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    journal = Journal(tmp_path / "j", start(TRIAL).executive.dynamics, "control", ())
+    journal.write({"event": "one"})
+    write = os.write
+    monkeypatch.setattr(os, "write", lambda file, data: write(file, data[:5]))
+
+    with pytest.raises(DeviceError, match="the disk is full"):
+        journal.write({"event": "two"})
+
+    journal.close()
+    assert (tmp_path / "j").read_text() == '{"event":"one"}\n'
+
+
+def test_a_device_that_takes_nothing_more_is_told(start: Start) -> None:
+    journal = Journal(Path("/dev/full"), start(TRIAL).executive.dynamics, "control", ())
+
+    with pytest.raises(DeviceError, match="cannot write the journal /dev/full: No space left"):
+        journal.write({"event": "one"})
+
+    journal.close()
+
+
+def test_a_torn_last_line_is_left_out(tmp_path: Path) -> None:
+    path = tmp_path / "j"
+    path.write_bytes(b'{"event":"one"}\n{"event":"tw')
+
+    assert list(read_journal(path)) == [{"event": "one"}]
+
+
+@pytest.mark.parametrize("line", [b"{", b"3", b"\xff", b""])
+def test_a_wrong_line_in_the_middle_is_told(tmp_path: Path, line: bytes) -> None:
+    path = tmp_path / "j"
+    path.write_bytes(b'{"event":"one"}\n' + line + b'\n{"event":"two"}\n')
+
+    with pytest.raises(DeviceError, match=r"line 2 of .* is no record of a journal"):
+        list(read_journal(path))
