@@ -60,8 +60,8 @@ AIR = 9 * 11 / 2400
 
 Answerer = Callable[[int, float], Sequence[tuple[float, int]]]
 """A brick: a message and its time; the messages it answers, each with the seconds until it begins to send them."""
-Damage = Callable[[bytes], tuple[float, bytes]]
-"""What happens to a frame on the air: how much later it comes, and what is left of it."""
+Damage = Callable[[bytes, bool], tuple[float, bytes]]
+"""What happens to a frame on the air, from the brick or from the host: how late it comes, and what is left of it."""
 
 
 @dataclass
@@ -70,16 +70,16 @@ class Air:
 
     brick: Answerer
     echo: bool = False
-    damage: Damage = lambda data: (0.0, data)
+    damage: Damage = lambda data, from_brick: (0.0, data)
     sleeps: bool = False
     name: str = "air"
     time: float = 100.0
     sent: list[tuple[float, int]] = field(default_factory=list)
     """What the host sent: when its last bit was out, and the message."""
     written: list[bytes] = field(default_factory=list)
-    last_frame_ended: float = 0.0
     _arriving: list[tuple[float, int, bytes]] = field(default_factory=list)
     _awake_until: float = 0.0
+    _held_up_until: float = 0.0
     _order: int = 0
 
     def open(self) -> None:
@@ -109,7 +109,7 @@ class Air:
         for match in FRAME.finditer(data):
             self.sent.append((out, match[1][0]))
             if awake or not self.sleeps:
-                delay, left = self.damage(match[0])
+                delay, left = self.damage(match[0], False)
                 if left == match[0]:
                     self._hear(match[1][0], out + delay)
                 elif left:
@@ -117,8 +117,12 @@ class Air:
 
     def _hear(self, number: int, at: float) -> None:
         for wait, answer in self.brick(number, at):
-            delay, left = self.damage(frame(answer))
-            self.arrive(at + wait + delay + AIR, left)
+            delay, left = self.damage(frame(answer), True)
+            # What comes late holds up what follows: nothing overtakes.
+            start = at + wait + delay
+            if delay or self._held_up_until > at + wait:
+                start = self._held_up_until = max(start, self._held_up_until + AIR)
+            self.arrive(start + AIR, left)
 
     def arrive(self, at: float, data: bytes) -> None:
         """Let bytes arrive at the host, at a virtual time."""

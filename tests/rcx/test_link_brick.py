@@ -193,9 +193,21 @@ def test_the_same_action_anew_is_marked_off_by_a_poll(talk: Script) -> None:
     line, brick = talk({36: [[64]]})
     brick.perform(4)
     brick.perform(4)
-    line.time += 3
+    assert line.numbers == [36, 83, 36]
+
+
+def test_the_same_action_anew_is_not_sent_before_that_poll_is_answered(talk: Script) -> None:
+    line, brick = talk({36: [[64]], 83: [[]]})
     brick.perform(4)
-    assert line.numbers == [36, 36, 83, 36]
+    with pytest.raises(SilentBrickError, match=r"action 4 \(6 polls before it were not answered\)"):
+        brick.perform(4)
+    assert line.numbers == [36] + [83] * 6
+
+
+def test_a_value_whose_second_continue_was_sent_again_is_asked_for_again(talk: Script) -> None:
+    line, brick = talk({36: [[76], [77]], 82: [[76], [], [65], [77], [65]]})
+    assert brick.perform(4) == 109
+    assert line.numbers == [36, 82, 82, 82, 83, 36, 82, 82]
 
 
 def test_panic_is_answered_by_an_abort(talk: Script) -> None:
@@ -337,7 +349,20 @@ def test_without_memory_a_last_digit_is_never_sent_alone_to_an_idle_brick(talk: 
 def test_without_memory_a_brick_that_waits_for_a_digit_gets_it(talk: Script) -> None:
     line, brick = talk({49: [[82]], 36: [[], [69]], 83: [[]]}, remembers=False)
     assert brick.perform(65) == 5
-    assert line.numbers == [49, 36, 83, 83, 83, 36]
+    assert line.numbers == [49, 36, *[83] * 6, 36]
+
+
+def test_without_memory_a_brick_that_waits_has_received_the_first_digit(talk: Script) -> None:
+    line, brick = talk({49: [[]], 36: [[69]], 83: [[]]}, remembers=False)
+    assert brick.perform(65) == 5
+    assert line.numbers == [49, *[83] * 6, 36]
+
+
+def test_without_memory_it_is_not_guessed_which_digit_was_received(talk: Script) -> None:
+    line, brick = talk({48: [[82], []], 83: [[]]}, remembers=False)
+    with pytest.raises(SilentBrickError, match=r"which of the digits \[48, 48, 33\] it has received"):
+        brick.perform(256)
+    assert line.numbers == [48, 48, *[83] * 6]
 
 
 def test_without_memory_a_late_answer_to_the_last_digit_counts(talk: Script) -> None:

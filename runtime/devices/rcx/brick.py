@@ -32,11 +32,7 @@ logger = logging.getLogger(__name__)
 
 DEFAULT_TIMEOUT = 15.0
 """Seconds that an action may take, as in Legolog."""
-FORGETFUL_ASKS = 2
-"""Number of times that *continue* is sent to a brick that may take the second one for another acknowledgement."""
-NEW_AFTER = 2.5
-"""A message equal to the one before it that comes later than this could be taken for the same one sent again."""
-PROBES = 3
+PROBES = 6
 """Requests, together as long as one wait for an answer, after which a brick that says nothing waits for a digit."""
 CHECK_HELP = (
     "is the brick switched on and in sight of the tower, does its program run (the green Run button), "
@@ -72,8 +68,7 @@ class Brick:
         self._numbers = parameters or ClassicParameters()
         self._timing = timing or Timing()
         self._remembers = remembers
-        asks = self._timing.sends if remembers else FORGETFUL_ASKS
-        self._exchange = Exchange(tower, self._numbers, self._timing, self.statistics, asks)
+        self._exchange = Exchange(tower, self._numbers, self._timing, self.statistics, remembers)
         self._replies = frozenset((*self._numbers.values.all, self._numbers.more_time))
         self._polled = frozenset((*self._numbers.actions.all, self._numbers.none))
         self._silent_polls = 0
@@ -107,10 +102,11 @@ class Brick:
         parts = self._numbers.actions.split(number)
         with self._abort_on_panic():
             self._exchange.catch_up()
-            self._mark_off(parts[0])
             action = _Action(number, parts, timeout, self._tower.now() + timeout, repeat)
+            self._mark_off(action)
             while (value := self._attempt(action)) is None:
                 self.statistics.repeated += 1
+                self._mark_off(action)
         self.statistics.actions += 1
         self._silent_polls = 0
         return value
@@ -156,39 +152,49 @@ class Brick:
 
     def _attempt(self, action: _Action) -> int | None:
         """Send the action from its first digit; None if that has to be done again."""
-        *leading, final = action.parts
-        for part in leading:
-            if self._deliver(part, frozenset((self._numbers.proceed,)), action) is None:
+        answer = None
+        for place in range(len(action.parts)):
+            answer = self._deliver(place, action)
+            if answer is None:
                 return None
-        answer = self._deliver(final, self._replies, action)
         while answer == self._numbers.more_time:
             answer = self._grant(action)
         if answer is None:
             return None
         collected = self._exchange.collect(answer, self._numbers.values)
-        if collected is not None and (collected.sure or self._remembers):
+        if collected is not None and collected.sure:
             return collected.number
-        self._exchange.stale = True
         if not action.repeat:
             raise SilentBrickError(f"the sensing value of action {action.number} has arrived with gaps", CHECK_HELP)
         self._note_silence(action)
         return None
 
-    def _deliver(self, part: int, expected: frozenset[int], action: _Action) -> int | None:
-        """Send a part until it is answered; None if the brick has forgotten, or finished, the number."""
+    def _deliver(self, place: int, action: _Action) -> int | None:
+        """Send a part until it is answered; None if the number has to be sent from its beginning."""
+        part, last = action.parts[place], place == len(action.parts) - 1
+        expected = self._replies if last else frozenset((self._numbers.proceed,))
         while True:
             answer = self._exchange.ask(part, expected, self._patience(action))
             if answer is None:
                 self._note_silence(action)
-                if part == action.parts[-1] and not action.repeat:
+                if last and not action.repeat:
                     raise self._silent(action, "whether it was done is not known")
-                answer = self._where(expected) if len(action.parts) > 1 and not self._remembers else None
-            if answer == self._numbers.none:
-                return None
+                if not self._remembers and len(action.parts) > 1:
+                    answer = self._where(expected)
+                    if answer == self._numbers.none:
+                        return None
+                    if answer is None and not last:
+                        answer = self._received(place, action)
             if answer is not None:
                 action.silences = 0
-                return answer
+                return None if self._exchange.doubtful and place > 0 else answer
             self.statistics.resent += 1
+
+    def _received(self, place: int, action: _Action) -> int:
+        """A brick that waits for a digit has received the first one. Of later ones that cannot be known."""
+        if place > 0:
+            raise self._silent(action, f"it is not known which of the digits {action.parts} it has received")
+        return self._numbers.proceed
 
     def _where(self, expected: frozenset[int]) -> int | None:
         """Ask the brick where it is: the answer that was missed, *none* if it is idle, None if it waits for a digit."""
@@ -198,6 +204,7 @@ class Brick:
             if answer is None or answer in expected:
                 self._exchange.expect_late()
             if answer is not None and answer not in expected:
+                self._exchange.stale = False
                 self._receive_event(answer)
                 return self._numbers.none
             if answer is not None:
@@ -260,23 +267,27 @@ class Brick:
         collected = self._exchange.collect(first, self._numbers.actions)
         # From a brick without memory, two doubtful digits are right as long as it has less than 256 actions:
         # a repeated digit makes it longer, a lost one makes it end here.
-        if collected is None or not (collected.sure or self._remembers or collected.digits == 2):
+        if collected is None or not (collected.sure or collected.digits == 2):
             self.statistics.lost += 1
             logger.warning("%s: an exogenous action was lost on the way (first digit %d)", self._tower.name, first)
             return
         self._exchange.events.append(collected.number)
         self.statistics.events += 1
 
-    def _mark_off(self, first: int) -> None:
-        """See to it that the next action is taken for a new one, and its answer for its own: poll in between.
+    def _mark_off(self, action: _Action) -> None:
+        """See to it that the action is taken for a new one, and its answer for its own: poll in between.
 
-        That is needed after something was sent twice, since the brick may answer twice, and before a message that a
-        brick which remembers could take for the one before it.
+        That is needed after something was sent twice, since the brick may answer twice, and before a message equal to
+        the one before, which a brick that remembers could take for the same one sent again.
         """
-        if self._exchange.stale or self._exchange.repeats(first, NEW_AFTER):
-            for _ in range(PROBES):
-                if self._request():
-                    return
+        looks_old = self._remembers and action.parts[0] == self._exchange.last_sent
+        if not looks_old and not self._exchange.stale:
+            return
+        for _ in range(PROBES):
+            if self._request():
+                return
+        if looks_old:
+            raise self._silent(action, f"{PROBES} polls before it were not answered")
 
     def _count_silence(self, answered: bool) -> None:
         """SilentBrickError after many polls without an answer."""

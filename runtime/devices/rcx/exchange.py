@@ -18,13 +18,21 @@ from golc.runtime.devices.rcx.tower import AWAKE_SECONDS, Tower
 
 logger = logging.getLogger(__name__)
 
+FORGETFUL_ASKS = 2
+"""Number of times that *continue* is sent to a brick that may take the second one for another acknowledgement."""
+NEW_AFTER = 2.5
+"""A brick that remembers takes a message for the one before it if it is the same and comes later than about 3 s."""
 LONGEST = 16
 """Digits after which a number counts as endless: one for each bit is enough in any base."""
 
 
 @dataclass(frozen=True, slots=True)
 class Collected:
-    """A number of one or more digits as it arrived; ``sure`` if no digit can be missing or double."""
+    """A number of one or more digits as it arrived; ``sure`` if no digit can be missing or double.
+
+    A brick that remembers takes a *continue* that follows another one, and is lost the first time, for the one before;
+    one that does not may send a digit again of its own accord.
+    """
 
     number: int
     digits: int
@@ -35,43 +43,69 @@ class Exchange:
     """Asks a brick and sorts what is heard; ``stale`` while answers to something sent twice may be under way."""
 
     def __init__(
-        self, tower: Tower, numbers: ClassicParameters, timing: Timing, statistics: BrickStatistics, asks: int
+        self, tower: Tower, numbers: ClassicParameters, timing: Timing, statistics: BrickStatistics, remembers: bool
     ) -> None:
-        self.asks = asks
-        """Number of times that *continue* is sent before what it should bring counts as lost."""
         self.events: deque[int] = deque()
         self.nonsense: list[int] = []
         self.stale = False
+        self.doubtful = False
+        """The brick may have taken the message asked last for the one before it, which was the same."""
         self._tower = tower
         self._numbers = numbers
         self._timing = timing
         self._statistics = statistics
+        self._remembers = remembers
         self._last_sent: int | None = None
         self._last_sent_at = float("-inf")
+        self._follows_itself = False
+        self._answered = True
         self._late_digits: list[int] = []
         self._late_until = float("-inf")
+
+    @property
+    def last_sent(self) -> int | None:
+        """The message that this brick was sent last."""
+        return self._last_sent
+
+    @property
+    def asks(self) -> int:
+        """Number of times that *continue* is sent before what it should bring counts as lost."""
+        return self._timing.sends if self._remembers else FORGETFUL_ASKS
 
     def send(self, number: int) -> float:
         """Send ``number``; the simulated time at which its last bit is out."""
         self._last_sent = number
+        self._answered = True
         self._last_sent_at = self._tower.send(number)
         return self._last_sent_at
 
-    def repeats(self, number: int, after: float) -> bool:
-        """Whether ``number`` is also what this brick was sent last, and that is longer ago than ``after`` seconds."""
-        return number == self._last_sent and self._tower.now() - self._last_sent_at > after
-
     def ask(self, number: int, accept: Container[int], wait: float) -> int | None:
         """Send ``number`` once; the first acceptable answer within ``wait``, or None. PanicError, NonsenseError."""
-        deadline = self.send(number) + wait
+        same, before = number == self._last_sent, self._last_sent_at
+        again = same and not self._answered
+        if not again:
+            self._follows_itself = same
+        sent = self.send(number)
+        self.doubtful = self._remembers and self._follows_itself and (again or sent - before > NEW_AFTER)
+        deadline = sent + wait
         while (heard := self._tower.receive(deadline)) is not None:
             if heard in accept:
                 self.nonsense.clear()
+                if again and number != self._numbers.request:
+                    self._drop_twins(heard)
                 return heard
             # An echo of which noise has hidden the beginning looks like a message.
             if heard != number or self._late_digits:
                 self._stray(heard)
+        self._answered = False
         return None
+
+    def _drop_twins(self, answer: int) -> None:
+        """If the first sending was answered late, then the answer to the second comes now."""
+        until = self._tower.now() + self._timing.poll
+        while (heard := self._tower.receive(until)) is not None:
+            if heard != answer:
+                self._stray(heard)
 
     def collect(self, first: int, kind: Digits) -> Collected | None:
         """The number that begins with the digit ``first``: asks for the others; None if one never comes."""
@@ -87,7 +121,8 @@ class Exchange:
             answer = self._next_digit(kind)
             if answer is None:
                 return None
-            sure = sure and self._tower.now() - asked <= self._timing.late
+            late = self._tower.now() - asked > self._timing.late
+            sure = sure and not (self.doubtful if self._remembers else late)
             messages.append(answer)
         number = kind.join(messages)
         return Collected(number, len(messages), sure and number <= MAXIMUM)

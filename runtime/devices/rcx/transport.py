@@ -38,6 +38,8 @@ WRITE_SECONDS = 5.0
 """Real seconds after which a port that takes no bytes counts as gone."""
 CHUNK = 4096
 """Bytes after which a read returns even if there are more."""
+PTY_MAJORS = range(136, 144)
+"""Device numbers of pseudo terminals on Linux."""
 TICK_SECONDS = 0.01
 """Real seconds between two looks at a port on which one cannot wait (rfc2217, Windows)."""
 
@@ -101,13 +103,13 @@ class SerialPort:
                 self.name,
                 baudrate=BAUD,
                 bytesize=serial.EIGHTBITS,
-                parity=serial.PARITY_ODD,
+                parity=serial.PARITY_NONE if is_pty(self.name) else serial.PARITY_ODD,
                 stopbits=serial.STOPBITS_ONE,
                 exclusive=True,
                 timeout=TICK_SECONDS,
                 write_timeout=WRITE_SECONDS,
             )
-        except (OSError, ValueError) as error:
+        except Exception as error:  # whatever the system (termios.error) or an URL's handler finds
             raise opening_error(self.name, error) from error
         _make_ready(port)
         self._port = port
@@ -191,6 +193,15 @@ def check_device(name: str) -> None:
         )
 
 
+def is_pty(name: str) -> bool:
+    """Whether the port is a pseudo terminal, which has no parity: asked for it a second time, it refuses."""
+    path = name.partition("?")[0].removeprefix("spy://")
+    try:
+        return os.name == "posix" and os.major(Path(path).stat().st_rdev) in PTY_MAJORS
+    except (OSError, ValueError):
+        return False
+
+
 # What the system says when a port cannot be opened: the class of the error, what happened, what to do.
 _REASONS: dict[int, tuple[type[LinkError], str, str]] = {
     errno.ENOENT: (
@@ -223,8 +234,11 @@ _REASONS: dict[int, tuple[type[LinkError], str, str]] = {
 
 def opening_error(name: str, error: Exception) -> LinkError:
     """The error that says why a port could not be opened, and what to do."""
-    number = error.errno if isinstance(error, OSError) else None
-    if number in _REASONS:
+    # pySerial wraps some errors without their number, and some not at all.
+    numbers = [error.errno] if isinstance(error, OSError) else []
+    numbers += [number for cause in (error, error.__context__) if cause is not None for number in cause.args[:1]]
+    number = next((number for number in numbers if isinstance(number, int) and number in _REASONS), None)
+    if number is not None:
         kind, what, help = _REASONS[number]
         return kind(f"the port {name} {what}", help.replace("PORT", name))
     return PortFailedError(f"the port {name} cannot be opened: {error}", _advice(name))
