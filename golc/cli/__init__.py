@@ -46,10 +46,10 @@ def cli() -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run a command and exit with the documented code; a bug leaves its traceback and exits 70."""
-    sys.exit(run(arguments))
+    sys.exit(invoke(arguments))
 
 
-def run(arguments: Sequence[str] | None = None) -> int:
+def invoke(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; every error that golc raises on purpose is said in one place."""
     try:
         code = cli.main(args=None if arguments is None else list(arguments), prog_name="golc", standalone_mode=False)
