@@ -516,7 +516,7 @@ class Active(Rule):
 
 
 class Turn(NamedTuple):
-    """The interrupts from the ``next`` one on have their turn, unless one above has had a transition (``token`` is used).
+    """The interrupts from the ``next`` one on have their turn, unless one above has used the ``token``.
 
     ``bodies``: the residual body of each active interrupt. ``going_on``: those of them that are not final.
     """

@@ -104,7 +104,7 @@ def spell(label: Label) -> str:
 Start = Callable[..., Running]
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def start() -> Start:
     """Start a program: the lines of ``control``, and further procedures as they stand."""
 
