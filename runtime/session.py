@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
@@ -92,7 +93,9 @@ class _Session:
         self.maps = brick_maps(theory)
         self.executable = executable(theory, program.action, program.args)
         self.dynamics = self.executable.dynamics
-        self.desk = Desk(self.ask, sys.stdin is not None and sys.stdin.isatty(), sys.stdin is not None, self.plausible)
+        self.stdin = _descriptor()
+        self.interactive = self.stdin is not None and os.isatty(self.stdin)
+        self.desk = Desk(self.ask, self.interactive, self.stdin is not None, self.plausible)
 
     def run(self) -> Outcome:
         settings = self.settings
@@ -107,8 +110,8 @@ class _Session:
         self.executive.observers += [timetable.observe, *observers]
         self.greet()
         outcome = self.executive.run()
-        if timetable.pending and settings.events is not None:
-            self.say(f"the schedule still had {timetable.pending} to come: {settings.events}")
+        if pending := timetable.pending:
+            self.say(f"the schedule still had {pending} event{'' if pending == 1 else 's'} to come")
         return outcome
 
     # What is put together
@@ -153,8 +156,8 @@ class _Session:
         if polled:
             reported = {entry.action for actions in self.maps.values() for entry in actions.entries if entry.exogenous}
             found.append(Poller(polled, frozenset(reported), self.inbox, clock))
-        if sys.stdin is not None:
-            found.append(Terminal(self.theory, self.inbox, self.desk, self.reply, sys.stdin.fileno()))
+        if self.stdin is not None:
+            found.append(Terminal(self.theory, self.inbox, self.desk, self.reply, self.stdin))
         if self.settings.listen is not None:
             listener = Listener(self.theory, self.inbox, *self.settings.listen)
             self.say("listening on {}:{}".format(*listener.address))
@@ -186,7 +189,7 @@ class _Session:
         if self.voice.verbosity >= 0:
             title = self.voice.style.paint(BOLD, f"{self.theory.name}: {self.program}")
             self.voice.write(f"{MARGIN}{title} {where}".rstrip())
-        if sys.stdin is not None and sys.stdin.isatty():
+        if self.interactive:
             self.say(
                 f"type an exogenous action such as {example(self.theory, exogenous=True)}, or one of "
                 + ", ".join(f"!{name}" for name in COMMANDS)
@@ -227,3 +230,11 @@ class _Session:
         senses = [term.type for action in self.theory.actions.values() for term in action.senses] if asked else []
         source = Source("<stdin>", word)
         return any(read_value(self.theory, type_, Span(source, 0, len(word)), Findings()) for type_ in senses)
+
+
+def _descriptor() -> int | None:
+    """Standard input, if there is one."""
+    try:
+        return sys.stdin.fileno()
+    except (AttributeError, OSError, ValueError):
+        return None
