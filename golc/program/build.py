@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
-from golc.program import rules
+from golc.program import concurrency, lookahead, rules
 from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.rules import Rule
@@ -89,13 +89,13 @@ class Builder:
             case st.Let(value=value, body=body):
                 return rules.Let(span, self._term(value, depth), self._rule(body, depth + 1))
             case st.Together(branches=branches):
-                return rules.Branching(span, rules.Together(span), self._rules(branches, depth))
+                return concurrency.Branching(span, concurrency.Together(span), self._rules(branches, depth))
             case st.Prefer(branches=branches):
-                return rules.Branching(span, rules.Prefer(span), self._rules(branches, depth))
+                return concurrency.Branching(span, concurrency.Prefer(span), self._rules(branches, depth))
             case st.Interrupts(handlers=handlers):
-                return rules.Interrupts(span, tuple(self._handler(handler, depth) for handler in handlers))
+                return concurrency.Interrupts(span, tuple(self._handler(handler, depth) for handler in handlers))
             case st.Search(body=body):
-                return rules.Search(span, self._rule(body, depth))
+                return lookahead.Search(span, self._rule(body, depth))
             case st.Wait():
                 return rules.WaitRule(span)
             case st.WaitUntil(condition=condition):
@@ -115,10 +115,10 @@ class Builder:
             block = self._sealed(rules.Block(part.span, self._rule(part, depth), block), depth)
         return block
 
-    def _handler(self, handler: st.Interrupt, depth: int) -> rules.On:
+    def _handler(self, handler: st.Interrupt, depth: int) -> concurrency.On:
         environments = self._environments(handler.binders, handler.condition, depth)
         body = self._rule(handler.body, depth + len(handler.binders))
-        return rules.On(handler.span, environments, handler.condition, body)
+        return concurrency.On(handler.span, environments, handler.condition, body)
 
     def _invoke(self, statement: st.Invoke, procedure: Procedure, depth: int) -> Rule:
         args = self._args(procedure.name, procedure.parameters, statement.args, depth)

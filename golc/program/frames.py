@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING
 from golc.program.nodes import Node
 
 if TYPE_CHECKING:
+    from golc.program.concurrency import Interrupts
     from golc.program.program import Program
-    from golc.program.rules import Interrupts
 
 
 class Token:

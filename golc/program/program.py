@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from golc.diagnostics import NOWHERE
+from golc.program.concurrency import Interrupts
+from golc.program.lookahead import Following
 from golc.program.nodes import Node, Pool
-from golc.program.rules import Env, Following, Interrupts, Rule, Sequence, Skip
+from golc.program.rules import Env, Rule, Sequence, Skip
 
 
 class Program:

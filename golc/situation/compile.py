@@ -12,7 +12,7 @@ from itertools import product
 from math import prod
 from typing import Any, NamedTuple
 
-from golc.situation import errors
+from golc.situation import guards
 from golc.situation.layout import Layout, Place
 from golc.theory.terms import (
     Binder,
@@ -30,7 +30,7 @@ from golc.theory.terms import (
     subterms,
 )
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
-from golc.theory.types import Interval, Type, Value, show_call
+from golc.theory.types import Interval, Type, Value
 
 DEEPEST = 24
 """Expressions nested deeper go into functions of their own: CPython refuses more than about 200 nested brackets."""
@@ -153,7 +153,7 @@ class Compiler:
                 continue
             text = self.expression(arg, cells, depth)
             if not fits(arg.type, type_):
-                check = _Positions(place.positions[index], arg, place.fluent.name, type_)
+                check = guards.Positions(place.positions[index], arg, place.fluent.name, type_)
                 text = f"{self.bind('position', check)}[{text}]"
             elif isinstance(type_, Interval):
                 constant -= stride * type_.low
@@ -172,14 +172,14 @@ class Compiler:
         known, value = _known(term, cells)
         if fits(term.type, type_) or (known and value in type_):
             return text
-        return f"{self.bind('check', _check(type_, failure))}({text})"
+        return f"{self.bind('check', guards.check(type_, failure))}({text})"
 
     def arguments(
         self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], cells: Cells, depth: int = 0
     ) -> list[str]:
         """Expressions for the arguments of something, each checked against its parameter's type."""
         return [
-            self.checked(arg, parameter.type, cells, _argument_failure(arg, what, parameter.type), depth)
+            self.checked(arg, parameter.type, cells, guards.argument_failure(arg, what, parameter.type), depth)
             for parameter, arg in zip(parameters, args, strict=True)
         ]
 
@@ -243,7 +243,7 @@ class Compiler:
         """The name of a mapping from argument tuples; that of an expression is filled when it is asked."""
         if isinstance(static.body, Mapping):
             return self.bind("table", static.body)
-        memo = _Memo(static)
+        memo = guards.Memo(static)
         name = self._made["static", static.name] = self.bind("static", memo)  # before its body, which may be recursive
         cells = variables(len(static.parameters))
         body = static.body
@@ -286,12 +286,12 @@ class Compiler:
         known, value = _known(term.args[1], cells)
         divisor = texts[1]
         if not (known and value):
-            divisor = f"{self.bind('divisor', _divisor(term))}({divisor})"
+            divisor = f"{self.bind('divisor', guards.divisor(term))}({divisor})"
         return f"({texts[0]} {term.op.value} {divisor})"
 
     def _some(self, term: Term, cells: Cells, depth: int) -> str:
         text = self.expression(term, cells, depth)
-        return f"{self.bind('some', _some(term))}({text})" if "none" in term.type.kinds else text
+        return f"{self.bind('some', guards.some(term))}({text})" if "none" in term.type.kinds else text
 
     def _quantified(self, term: Quantified, cells: Cells, depth: int) -> str:
         bindings = prod(len(binder.variable.type.values) for binder in term.binders)
@@ -309,7 +309,7 @@ class Compiler:
             case "sum":
                 return f"sum({body} {clauses})"
             case _:
-                return f"{self.bind('extremum', _extremum(term))}([{body} {clauses}])"
+                return f"{self.bind('extremum', guards.extremum(term))}([{body} {clauses}])"
 
     def _unrolled(self, term: Quantified, cells: Cells, depth: int) -> str:
         cases = []
@@ -354,78 +354,3 @@ def _known(term: Term, cells: Cells) -> tuple[bool, Value]:
             return cells[level].known, cells[level].value
         case _:
             return False, None
-
-
-class _Positions(dict[Value, int]):
-    """The places of a parameter's values; asked for another one, it raises the error with its place."""
-
-    def __init__(self, positions: Mapping[Value, int], arg: Term, what: str, type_: Type) -> None:
-        super().__init__(positions)
-        self._failure = _argument_failure(arg, what, type_)
-
-    def __missing__(self, value: Value) -> int:
-        raise self._failure(value)
-
-
-class _Memo(dict[tuple[Value, ...], Value]):
-    """The values of a static function, computed when they are first asked for."""
-
-    function: Callable[..., Value]
-
-    def __init__(self, static: Static) -> None:
-        super().__init__()
-        self._static = static
-
-    def __missing__(self, args: tuple[Value, ...]) -> Value:
-        static = self._static
-        try:
-            value = self.function((), *args)
-        except RecursionError:
-            raise errors.endless(static.span, static.name) from None
-        if value not in static.type:
-            assert not isinstance(static.body, Mapping)
-            raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
-        self[args] = value
-        return value
-
-
-def _argument_failure(arg: Term, what: str, type_: Type) -> Callable[[Value], Exception]:
-    return lambda value: errors.argument_outside(arg.span, what, value, type_)
-
-
-def _check(type_: Type, failure: Callable[[Value], Exception]) -> Callable[[Value], Value]:
-    def check(value: Value) -> Value:
-        if value in type_:
-            return value
-        raise failure(value)
-
-    return check
-
-
-def _some(term: Term) -> Callable[[Value], Value]:
-    def some(value: Value) -> Value:
-        if value is None:
-            raise errors.nothing(term.span, "an operand")
-        return value
-
-    return some
-
-
-def _divisor(term: Operation) -> Callable[[int], int]:
-    def divisor(value: int) -> int:
-        if value == 0:
-            raise errors.division_by_zero(term.span)
-        return value
-
-    return divisor
-
-
-def _extremum(term: Quantified) -> Callable[[list[int]], int]:
-    choose = min if term.kind == "min" else max
-
-    def extremum(values: list[int]) -> int:
-        if not values:
-            raise errors.empty_extremum(term.span, term.kind)
-        return choose(values)
-
-    return extremum

@@ -1,0 +1,194 @@
+"""*Trans* and *Final* of what runs at the same time: concurrency, priorities, interrupts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+
+from golc.diagnostics import Span
+from golc.program.frames import Branch, Handler, Token
+from golc.program.nodes import Node
+from golc.program.rules import Env, Found, Rule
+from golc.program.walks import Proof, Walk
+from golc.situation.layout import State
+from golc.theory.terms import Term
+
+if TYPE_CHECKING:
+    from golc.program.program import Program
+
+Bodies: TypeAlias = tuple[Node | None, ...]
+"""The residual body of each interrupt of a block, or none where it is not active."""
+
+
+class Together(Rule):
+    """*δ1 ∥ δ2*: interleaved concurrency; the operands are the branches that are not over."""
+
+    needs_all = True
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        for index in reversed(range(len(node.operands))):
+            walk.push_inside(node.operands[index], Branch(node, index, None, walk.outer))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require_all(node.operands)
+        return False
+
+
+class Prefer(Rule):
+    """*δ1 ⟩⟩ δ2*: the lower part only if the higher one has no transition; the operands are the parts in order."""
+
+    needs_all = True
+
+    def __init__(self, span: Span) -> None:
+        super().__init__(span)
+        self.lower = Lower(span)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        return self.lower.trans(walk, (node, 0, None))
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require_all(node.operands)
+        return False
+
+
+class Lower(Rule):
+    """A part of a ``prefer``, if the part above it has had no transition."""
+
+    def trans(self, walk: Walk, node: tuple[Node, int, Token | None]) -> Found:
+        whole, index, above = node
+        if above is not None and above.used:
+            return None
+        token = Token(walk.outer)
+        if index + 1 < len(whole.operands):
+            walk.push_task(self, (whole, index + 1, token))
+        walk.push_inside(whole.operands[index], Branch(whole, index, token, walk.outer))
+        return None
+
+
+class Branching(Rule):
+    """``together`` or ``prefer`` as written: its nodes are of the rule ``whole``."""
+
+    def __init__(self, span: Span, whole: Rule, branches: tuple[Rule, ...]) -> None:
+        super().__init__(span)
+        self.whole = whole
+        self.branches = branches
+        self.may_finish = all(branch.may_finish for branch in branches)
+
+    def instance(self, program: Program, env: Env) -> Node:
+        return program.branches(self.whole, tuple([program.at(branch, env) for branch in self.branches]))
+
+
+class On:
+    """One interrupt: the environments for which its condition holds, and its body."""
+
+    __slots__ = ("body", "environments", "span", "term")
+
+    def __init__(self, span: Span, environments: Callable[[State, Env], Iterator[Env]], term: Term, body: Rule) -> None:
+        self.span = span
+        self.environments = environments
+        self.term = term
+        self.body = body
+
+
+class Interrupts(Rule):
+    """*⟨φ → δ⟩* in order of priority, none of them active."""
+
+    def __init__(self, span: Span, handlers: tuple[On, ...]) -> None:
+        super().__init__(span)
+        self.handlers = handlers
+        self.idle: Bodies = (None,) * len(handlers)
+        self.active = Active(span, self)
+        self.attempt = Attempt(self)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        return self.attempt.trans(walk, Turn(node.operands, self.idle, self.idle, 0, Token(walk.outer)))
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return next(proof.machine.transitions(node, proof.state), None) is None
+
+    def frame(self, walk: Walk, turn: Turn) -> Handler:
+        """What surrounds the body of the interrupt whose turn it is."""
+        return Handler(self, turn.env, turn.going_on, turn.next, turn.token, walk.outer)
+
+
+class Active(Rule):
+    """Interrupts of which some are active: operands environment and, for each interrupt, its residual body or none.
+
+    A body that is final goes on if it can; as soon as anything else of the block steps, it has ended.
+    """
+
+    def __init__(self, span: Span, interrupts: Interrupts) -> None:
+        super().__init__(span)
+        self.interrupts = interrupts
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        env, bodies = node.operands
+        machine, state = walk.machine, walk.state
+        going_on = tuple([body if body is None or not machine.final(body, state) else None for body in bodies])
+        return self.interrupts.attempt.trans(walk, Turn(env, bodies, going_on, 0, Token(walk.outer)))
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        """The active bodies are final and nothing can step."""
+        machine, state = proof.machine, proof.state
+        return (
+            all(machine.final(body, state) for body in node.operands[1] if body is not None)
+            and next(machine.transitions(node, state), None) is None
+        )
+
+
+class Turn(NamedTuple):
+    """The interrupts from the ``next`` one on have their turn, unless one above has used the ``token``.
+
+    ``bodies``: the residual body of each active interrupt. ``going_on``: those of them that are not final.
+    """
+
+    env: Env
+    bodies: Bodies
+    going_on: Bodies
+    next: int
+    token: Token
+
+
+class Attempt(Rule):
+    """The interrupts from one on: the operand is a turn."""
+
+    def __init__(self, interrupts: Interrupts) -> None:
+        super().__init__(interrupts.span)
+        self.interrupts = interrupts
+        self.fire = Fire(interrupts)
+
+    def trans(self, walk: Walk, node: Turn) -> Found:
+        if node.token.used:
+            return None
+        index = node.next
+        if index + 1 < len(node.bodies):
+            walk.push_task(self, node._replace(next=index + 1))
+        body = node.bodies[index]
+        if node.going_on[index] is None:
+            handler = self.interrupts.handlers[index]
+            walk.push_task(self.fire, (node, handler.environments(walk.state, node.env)))
+        if body is not None:
+            walk.push_inside(body, self.interrupts.frame(walk, node))
+        return None
+
+
+class Fire(Rule):
+    """An interrupt that is not active, or whose body is final: the first binding whose body can step."""
+
+    def __init__(self, interrupts: Interrupts) -> None:
+        super().__init__(interrupts.span)
+        self.interrupts = interrupts
+
+    def trans(self, walk: Walk, node: tuple[Turn, Iterator[Env]]) -> Found:
+        turn, environments = node
+        if turn.token.used:
+            return None
+        handler = self.interrupts.handlers[turn.next]
+        inner = next(environments, None)
+        if inner is None:
+            walk.machine.blame(self, "no interrupt", handler, turn.env)
+            return None
+        walk.push_task(self, node)
+        walk.push_inside(walk.machine.program.at(handler.body, inner), self.interrupts.frame(walk, turn))
+        return None

@@ -1,0 +1,98 @@
+"""What generated code calls where the types alone do not prove that nothing goes wrong: each knows its place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+
+from golc.situation import errors
+from golc.theory.terms import Operation, Quantified, Term
+from golc.theory.theory import Static
+from golc.theory.types import Type, Value, show_call
+
+MOST_REMEMBERED = 100_000
+"""How many values of one static function are kept."""
+
+
+class Positions(dict[Value, int]):
+    """The places of a parameter's values; asked for another one, it raises the error with its place."""
+
+    def __init__(self, positions: Mapping[Value, int], arg: Term, what: str, type_: Type) -> None:
+        super().__init__(positions)
+        self._failure = argument_failure(arg, what, type_)
+
+    def __missing__(self, value: Value) -> int:
+        raise self._failure(value)
+
+
+class Memo(dict[tuple[Value, ...], Value]):
+    """The values of a static function, computed when they are first asked for."""
+
+    function: Callable[..., Value]
+
+    def __init__(self, static: Static) -> None:
+        super().__init__()
+        self._static = static
+
+    def __missing__(self, args: tuple[Value, ...]) -> Value:
+        static = self._static
+        try:
+            value = self.function((), *args)
+        except RecursionError:
+            raise errors.endless(static.span, static.name) from None
+        if value not in static.type:
+            assert not isinstance(static.body, Mapping)
+            raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
+        if len(self) >= MOST_REMEMBERED:
+            self.clear()
+        self[args] = value
+        return value
+
+
+def argument_failure(arg: Term, what: str, type_: Type) -> Callable[[Value], Exception]:
+    """The error for a value of an argument that is outside its parameter's type."""
+    return lambda value: errors.argument_outside(arg.span, what, value, type_)
+
+
+def check(type_: Type, failure: Callable[[Value], Exception]) -> Callable[[Value], Value]:
+    """A function that gives its argument back if it belongs to a type, and raises otherwise."""
+
+    def check(value: Value) -> Value:
+        if value in type_:
+            return value
+        raise failure(value)
+
+    return check
+
+
+def some(term: Term) -> Callable[[Value], Value]:
+    """A function that gives its argument back unless it is ``none``."""
+
+    def some(value: Value) -> Value:
+        if value is None:
+            raise errors.nothing(term.span, "an operand")
+        return value
+
+    return some
+
+
+def divisor(term: Operation) -> Callable[[int], int]:
+    """A function that gives its argument back unless it is 0."""
+
+    def divisor(value: int) -> int:
+        if value == 0:
+            raise errors.division_by_zero(term.span)
+        return value
+
+    return divisor
+
+
+def extremum(term: Quantified) -> Callable[[list[int]], int]:
+    """``min`` or ``max`` of a list that must not be empty."""
+    choose = min if term.kind == "min" else max
+
+    def extremum(values: list[int]) -> int:
+        if not values:
+            raise errors.empty_extremum(term.span, term.kind)
+        return choose(values)
+
+    return extremum
