@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from golc.runtime.rcxsim.ports import Port
     from golc.runtime.rcxsim.trace import Record
 
-FULL = {
+TROUBLE = {
     "unknown": "the host sent number {number}, which the brick has no action for; answered 0",
     "panicked": "{why}: the brick panics until it is aborted",
     "senseless": "{action} could not be sensed, answered 0: {problem}",
@@ -24,7 +24,7 @@ FULL = {
 """What is said on stderr of records that mean trouble; see also ``problem``."""
 
 
-@click.command()
+@click.command(name="sim", short_help="Simulate the brick of a domain behind a serial port.")
 @click.argument("file", type=click.Path(path_type=Path))
 @click.option(
     "--pty", "link", type=click.Path(path_type=Path), metavar="PATH", help="Make a link to the terminal here."
@@ -83,7 +83,7 @@ def command(
 
     \b
     golc sim examples/delivery/delivery.gl --pty /tmp/brick --speed 5 &
-    golc run examples/delivery/delivery.gl --port /tmp/brick
+    golc run examples/delivery/delivery.gl --port /tmp/brick --speed 5
     """
     if link is not None and tcp is not None:
         raise click.UsageError("--pty and --tcp exclude each other")
@@ -128,7 +128,7 @@ def _teller(console: Console) -> Any:
 
     def tell(record: Record) -> None:
         problem = record.get("problem")
-        text = FULL.get(record["what"]) or ("{action}: {problem}" if problem else None)
+        text = TROUBLE.get(record["what"]) or ("{action}: {problem}" if problem else None)
         if text is not None and console.verbosity >= 0:
             console.err(f"{record['t']:9.3f} s  " + text.format(**record))
         elif console.verbosity > 0:

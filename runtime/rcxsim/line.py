@@ -59,6 +59,7 @@ class Line:
         self._coming: list[tuple[float, int, int]] = []  # the host's bytes: time, order, byte
         self._going: list[tuple[float, int, int]] = []  # the bytes to the host
         self._order = 0
+        self._now = 0.0
         self._free = 0.0  # until when the host's bytes fill the air
         self._sending = (0.0, 0.0)  # when the brick sends, or sent last
         self._heard_at = float("-inf")
@@ -84,14 +85,16 @@ class Line:
         """Let everything happen that happens until ``now``, each thing at its own time; the bytes for the host."""
         received = bytearray()
         while (due := self.due()) is not None and due <= now:
+            self._now = max(self._now, due)  # what was held up is due in the past
             if self._coming and self._coming[0][0] == due:
-                received += self._host_byte(heapq.heappop(self._coming)[2], due)
+                received += self._host_byte(heapq.heappop(self._coming)[2], self._now)
             elif self._going and self._going[0][0] == due:
                 received.append(heapq.heappop(self._going)[2])
             else:
                 for program in self._programs:
                     if program.due() == due:
-                        self._answer(program.tick(due), due)
+                        self._answer(program.tick(self._now), self._now)
+        self._now = max(self._now, now)
         return bytes(received)
 
     def _host_byte(self, byte: int, now: float) -> bytes:

@@ -206,6 +206,17 @@ def test_chance_prefers_what_changes_something(wire: MakeWire) -> None:
     assert names.count("call") > 2 * names.count("bell") > 0
 
 
+def test_time_never_goes_back(wire: MakeWire) -> None:
+    lift = wire("at 1 s: bell\nat 2 s: call(1)\nat 3 s: call(2)\n", air_time=1.0)
+    lift.poll()
+    lift.wait(20)
+    lift.poll()
+    lift.poll()
+    times = [record["t"] for record in lift.records]
+    assert times == sorted(times)
+    assert [record["action"] for record in lift.told("happened")] == ["bell", "call(1)", "call(2)"]
+
+
 def test_nothing_happens_before_the_host_is_heard(wire: MakeWire) -> None:
     lift = wire(None)
     lift.wait(1000)
