@@ -70,7 +70,7 @@ class Outcome:
 class Planning:
     """A search for the plans of a program from the initial state; iterate over it, then read its ``outcome``."""
 
-    def __init__(self, executable: Executable, limits: Limits, all_plans: bool) -> None:
+    def __init__(self, executable: Executable, limits: Limits, all_plans: bool = False) -> None:
         self.outcome = Outcome()
         self._executable = executable
         self._budget = Budget(limits)
