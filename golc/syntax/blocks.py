@@ -173,13 +173,17 @@ def unclosed_bracket(failure: Failure) -> Diagnostic | None:
     last = _last_before_next_line(failure, opening)
     if last is None:
         return None
+    return not_closed(failure, opening, last.end_pos or 0)
+
+
+def not_closed(failure: Failure, opening: Token, place: int) -> Diagnostic:
+    """The finding that a bracket should have been closed at a place."""
     sign = CLOSING[CLOSING_OF[opening.type]]
-    end = last.end_pos or 0
     return failure.finding(
         Code.MISSING,
-        f"the `{sign}` for this line's `{opening}` is missing",
-        failure.at(end, end),
-        f"close it with `{sign}`",
+        f"the `{sign}` that closes `{opening}` is missing",
+        failure.at(place, place),
+        f"write `{sign}`",
         labels=(Label(failure.span(opening), "opened here"),),
     )
 

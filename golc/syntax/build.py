@@ -51,7 +51,7 @@ class Builder:
             order.append(tree)
             depth += tree.data in NESTING
             if depth > DEEPEST:
-                too_deep(self.findings, self.span(tree))
+                too_deep(self.findings, self.source, self.span(tree).start)
                 return None
             waiting += [(child, depth) for child in tree.children if isinstance(child, Tree)]
         return order
@@ -101,12 +101,12 @@ class Builder:
         return plain_text(self.span(token), self.findings)
 
 
-def too_deep(findings: Findings, span: Span) -> None:
-    """Nesting that no person writes and no pass over the tree has to bear."""
+def too_deep(findings: Findings, source: Source, place: int) -> None:
+    """Nesting that no person writes and no pass over the tree has to bear begins at a place."""
     findings.error(
         Code.NESTING,
         f"nesting is deeper than {DEEPEST} levels",
-        span,
+        Span(source, place, place + 1),
         help="give a part of it a name with `define`, or make a part of the program a procedure",
     )
 

@@ -61,7 +61,7 @@ def _line_end(token: Token, previous: Token | None, levels: list[int]) -> Iterat
     indentation = token.rsplit("\n", 1)[1]
     end = token.end_pos or 0
     start = end - len(indentation)
-    yield token if previous is None else _after("_NL", previous)
+    yield _after("_NL", token if previous is None else previous)
     if "\t" in indentation:
         raise LayoutError("tab", start + indentation.index("\t"), end)
     width = len(indentation)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from lark import UnexpectedInput
 
 from golc.diagnostics import Code, Findings, Source, Span
@@ -23,6 +25,8 @@ def parse_file(source: Source, findings: Findings) -> ast.File | None:
     if file is None:
         found = Findings()
         file = recover(source, found)
+        if not found.has_errors:
+            found.error(Code.SYNTAX, "the file does not follow the grammar", Span(source, 0, 0))
     for diagnostic in sorted(found.diagnostics, key=lambda diagnostic: diagnostic.span.start):
         findings.add(diagnostic)
     return file
@@ -30,7 +34,7 @@ def parse_file(source: Source, findings: Findings) -> ast.File | None:
 
 def parse_expression(source: Source, findings: Findings) -> ast.Expr | None:
     """The tree of a text that is one expression, or None and findings."""
-    if not source.text.strip():
+    if not re.sub("#.*", "", source.text).strip():
         findings.error(Code.SYNTAX, "there is no expression", Span(source, 0, len(source.text)))
         return None
     return parse_inner(Span(source, 0, len(source.text)), findings)

@@ -7,6 +7,7 @@ import re
 from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Label
+from golc.syntax.blocks import CLOSING_OF, not_closed
 from golc.syntax.failure import Failure, Hint
 from golc.syntax.layout import CLOSING, OPENING
 from golc.syntax.terminals import title, titles
@@ -161,6 +162,9 @@ def missing_type(failure: Failure) -> Diagnostic | None:
     if colon and name is not None and name.type == "NAME" and failure.kind in ("RPAR", "COMMA", "WHERE", "_NL", "DOT"):
         message, help = f"`{name}` has no type", f"write `{name}: type`"
         return failure.finding(Code.MISSING, message, failure.gap(), help)
+    if failure.accepts == {"COLON"} and name is not None and failure.kind == "NAME" and failure.brackets:
+        message, help = f"the colon between `{name}` and its type is missing", f"write `{name}: {failure.bad}`"
+        return failure.finding(Code.MISSING, message, failure.gap(), help)
     if failure.wants_type and failure.kind not in ("NAME", "INT"):
         return failure.finding(
             Code.MISSING, "a type is missing", failure.gap(), "name a type, or write `1..6`, `{a, b}`"
@@ -173,17 +177,9 @@ def missing_bracket(failure: Failure) -> Diagnostic | None:
     if not failure.brackets or failure.kind in STARTS:
         return None
     opening = failure.brackets[-1]
-    closing = {"LPAR": "RPAR", "LSQB": "RSQB", "LBRACE": "RBRACE"}[opening.type]
-    if closing not in failure.accepts:
+    if CLOSING_OF[opening.type] not in failure.accepts or failure.previous is None:
         return None
-    sign = CLOSING[closing]
-    return failure.finding(
-        Code.MISSING,
-        f"the `{sign}` that closes this bracket is missing",
-        failure.gap(),
-        f"close it with `{sign}`",
-        labels=(Label(failure.span(opening), "opened here"),),
-    )
+    return not_closed(failure, opening, failure.previous.end_pos or 0)
 
 
 def missing_name(failure: Failure) -> Diagnostic | None:

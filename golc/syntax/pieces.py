@@ -28,7 +28,7 @@ class Piece:
 def parse_piece(part: Span, start: str, deep: int | None, findings: Findings) -> Piece:
     """Parse a part of a source from a start symbol; ``deep`` is the place where it is nested too deeply, if it is."""
     if deep is not None:
-        too_deep(findings, Span(part.source, deep, deep + 1))
+        too_deep(findings, part.source, deep)
         return Piece(part, None)
     text = part.text if start == "expr" else part.text + "\n"
     try:

@@ -30,8 +30,7 @@ def recover(source: Source, findings: Findings) -> ast.File | None:
         return None
     start = pieces[0].part.start
     here = Span(source, start, start)
-    unread = tuple(name for piece in pieces if piece.node is None for name in _names(piece))
-    return ast.File(domain or ast.Ident("", span=here), declarations, unread, span=here.to(pieces[-1].part))
+    return ast.File(domain or ast.Ident("", span=here), declarations, span=here.to(pieces[-1].part))
 
 
 def _pieces(source: Source) -> Iterable[tuple[Piece, Findings]]:
@@ -103,15 +102,3 @@ def _merge(read: list[tuple[Piece, Findings]], findings: Findings) -> None:
 def _uses(piece: Piece, misused: set[str]) -> bool:
     """Whether a piece cannot be read in a line that uses a reserved word which another piece declares as a name."""
     return piece.failure is not None and any(str(token) in misused for token in piece.failure.line)
-
-
-def _names(piece: Piece) -> list[ast.Ident]:
-    """The names that a declaration that cannot be read probably declares: the first, and the symbols of a type."""
-    text, start = piece.part.text, piece.part.start
-    names = list(re.finditer(r"[A-Za-z]\w*", text.split("\n", 1)[0]))[1:]
-    if not text.startswith("type"):
-        names = names[:1]
-    return [
-        ast.Ident(name.group(), span=Span(piece.part.source, start + name.start(), start + name.end()))
-        for name in names
-    ]

@@ -107,14 +107,6 @@ def _integer(b: Builder, span: Span, children: list[Any]) -> ast.Number:
     return ast.Number(-value if minus else value, span=span)
 
 
-def _bound_number(b: Builder, span: Span, children: list[Any]) -> ast.Expr:
-    """As an expression: there a number has no sign."""
-    number: ast.Number = children[0]
-    if number.value < 0:
-        return ast.Unary("-", ast.Number(-number.value, span=number.span), span=span)
-    return number
-
-
 def _action(b: Builder, span: Span, children: list[Any]) -> ast.Action:
     name, parameters, *clauses = children
     b.declare(name)
@@ -345,7 +337,6 @@ RULES: dict[str, Rule] = {
     "union": _union,
     "enum": _enum,
     "integer": _integer,
-    "bound_number": _bound_number,
     "true": _truth(True),
     "false": _truth(False),
     "action": _action,

@@ -537,14 +537,10 @@ Declaration: TypeAlias = (
 
 @dataclass(frozen=True)
 class File(Node):
-    """A whole file: its domain's name and its declarations in order.
-
-    ``unread`` are names that are declared where the text has an error: they exist, but nothing is known of them.
-    """
+    """A whole file: its domain's name and its declarations in order."""
 
     domain: Ident
     declarations: tuple[Declaration, ...]
-    unread: tuple[Ident, ...] = field(default=(), compare=False)
 
 
 # ---- programs
