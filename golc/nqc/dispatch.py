@@ -1,0 +1,209 @@
+"""The cases of ``startBehaviour``: from the number of an action to its behaviour and its arguments."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from golc.nqc.actionmap import ActionMap, Entry, value_number
+from golc.nqc.behaviours import behaviour_name
+from golc.theory.theory import BasicActionTheory, ByStart, Fixed, Parameter
+from golc.theory.types import Type, show
+
+
+@dataclass(frozen=True)
+class Number:
+    """A ``#define`` of the action map."""
+
+    macro: str
+    value: int
+    comment: str
+
+
+@dataclass(frozen=True)
+class Case:
+    """One number and what is done for it."""
+
+    macro: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Range:
+    """The numbers ``first..last`` and what is done for them; ``number`` is the variable that has the number."""
+
+    first: str
+    last: str
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Counter:
+    """The variable that counts a ground exogenous action; ``code`` is its number from the first event's, which is 1."""
+
+    name: str
+    entry: Entry
+    code: int
+
+
+class Names:
+    """The macros of the numbers, all different: ``NUMBER_a``, for an action with several entries ``NUMBER_a_left``."""
+
+    def __init__(self, actions: ActionMap) -> None:
+        self._taken: set[str] = set()
+        self.of_entry: dict[int, str] = {}
+        several = {
+            entry.action
+            for one, entry in pairwise(sorted(actions.entries, key=lambda e: e.action))
+            if one.action == entry.action
+        }
+        for entry in actions.entries:
+            fixed = [slot.value for slot in entry.args if isinstance(slot, Fixed)] if entry.action in several else []
+            self.of_entry[entry.first] = self.unique("_".join([entry.action, *map(_word, fixed)]), entry.first)
+
+    def unique(self, name: str, number: int) -> str:
+        """The name itself, or with the number where another entry has it already."""
+        if name in self._taken:
+            name = f"{name}_{number}"
+        self._taken.add(name)
+        return name
+
+
+def _word(value: object) -> str:
+    """A value as part of a name."""
+    return show(value).replace("-", "m")
+
+
+def numbers(actions: ActionMap, names: Names) -> list[Number]:
+    """The action map: a macro for each number, two for a range."""
+    found = []
+    for entry in actions.entries:
+        name = names.of_entry[entry.first]
+        if entry.count == 1:
+            found.append(Number(f"NUMBER_{name}", entry.first, ""))
+        else:
+            slots = ", ".join(show(s.value) if isinstance(s, Fixed) else f"{s.name}: {s.type}" for s in entry.args)
+            found.append(Number(f"NUMBER_{name}", entry.first, f"     // {entry.action}({slots})"))
+            found.append(Number(f"LAST_{name}", entry.last, ""))
+    return found
+
+
+def counters(actions: ActionMap) -> list[Counter]:
+    """One counter for each ground exogenous action of the brick."""
+    exogenous = [entry for entry in actions.entries if entry.exogenous]
+    first = min((entry.first for entry in exogenous), default=1)
+    taken: set[str] = set()
+    found = []
+    for entry in exogenous:
+        for number, args in entry.ground():
+            name = "_".join(["EXOG", entry.action, *map(_word, args)])
+            if name in taken:
+                name = f"{name}_{number}"
+            taken.add(name)
+            found.append(Counter(name, entry, number - first + 1))
+    return found
+
+
+class Dispatch:
+    """The cases and ranges of ``startBehaviour``, and the argument variables that they need."""
+
+    def __init__(self, theory: BasicActionTheory, actions: ActionMap, names: Names) -> None:
+        self.cases: list[Case] = []
+        self.ranges: list[Range] = []
+        self._arguments = 0
+        for entry in actions.entries:
+            if entry.behaviour is None:
+                continue
+            name = names.of_entry[entry.first]
+            types = [parameter.type for parameter in theory.actions[entry.action].parameters]
+            if entry.count == 1:
+                self.cases.append(Case(f"NUMBER_{name}", tuple(self._single(entry, types))))
+            else:
+                lines = tuple(self._several(entry, types, f"NUMBER_{name}"))
+                self.ranges.append(Range(f"NUMBER_{name}", f"LAST_{name}", lines))
+
+    @property
+    def arguments(self) -> list[str]:
+        """The variables ``golc_arg1…`` that are used."""
+        return [f"golc_arg{place}" for place in range(1, self._arguments + 1)]
+
+    def _single(self, entry: Entry, types: Sequence[Type]) -> Iterator[str]:
+        values = [str(value_number(type_, v)) for type_, v in zip(types, entry.arguments(0), strict=True)]
+        if isinstance(entry.behaviour, ByStart):
+            self._arguments = max(self._arguments, len(values))
+            yield from (f"golc_arg{place} = {value};" for place, value in enumerate(values, start=1))
+            yield f"start {behaviour_name(entry)};"
+        else:
+            yield f"{behaviour_name(entry)}({', '.join(values)});"
+
+    def _several(self, entry: Entry, types: Sequence[Type], macro: str) -> Iterator[str]:
+        """Take the place in the range apart, the last argument first; the first one that varies keeps what remains."""
+        self._arguments = max(self._arguments, len(entry.args))
+        variables = [f"golc_arg{place}" for place in range(1, len(entry.args) + 1)]
+        slots = list(zip(variables, entry.args, types, strict=True))
+        varying = [(variable, slot, type_) for variable, slot, type_ in slots if isinstance(slot, Parameter)]
+        rest = varying[0][0]
+        yield f"{rest} = number - {macro};"
+        for variable, slot, _ in reversed(varying[1:]):
+            count = len(slot.type.values)
+            yield f"{variable} = {rest} % {count};"
+            yield f"{rest} /= {count};"
+        for variable, slot, type_ in slots:
+            if isinstance(slot, Fixed):
+                yield f"{variable} = {value_number(type_, slot.value)};"
+            else:
+                yield from _from_index(variable, slot, type_)
+        if isinstance(entry.behaviour, ByStart):
+            yield f"start {behaviour_name(entry)};"
+        else:
+            yield f"{behaviour_name(entry)}({', '.join(variables)});"
+
+
+def _from_index(variable: str, slot: Parameter, type_: Type) -> Iterator[str]:
+    """Turn the index of an argument into its number: by adding, by multiplying, or by a list."""
+    values = [value_number(type_, value) or 0 for value in slot.type.values]
+    steps = {after - before for before, after in pairwise(values)} or {1}
+    comment = f"// {slot.name}: {slot.type}"
+    if len(steps) == 1:
+        if (step := steps.pop()) != 1:
+            yield f"{variable} *= {step};"
+        if values[0]:
+            yield f"{variable} += {values[0]};     {comment}"
+        return
+    yield f"switch ({variable}) {{     {comment}"
+    for index, value in enumerate(values):
+        yield f"    case {index}: {variable} = {value}; break;"
+    yield "}"
+
+
+def facts(actions: ActionMap, names: Names) -> Mapping[str, object]:
+    """The action map for programs: every ground action with its number, its behaviour and what its answers mean."""
+    from golc.nqc.actionmap import results
+
+    return {
+        "messages": {
+            name.replace(" ", "_"): {"first": messages.start, "last": messages.stop - 1}
+            for name, messages in actions.wire.ranges().items()
+        },
+        "fingerprint": actions.fingerprint,
+        "actions": [
+            {
+                "number": number,
+                "action": entry.action,
+                "arguments": [argument if isinstance(argument, (bool, int)) else show(argument) for argument in args],
+                "exogenous": entry.exogenous,
+                "behaviour": _spelt_behaviour(entry),
+                "timeout": None if entry.exogenous else entry.timeout,
+                "results": results(entry),
+            }
+            for entry in actions.entries
+            for number, args in entry.ground()
+        ],
+    }
+
+
+def _spelt_behaviour(entry: Entry) -> Mapping[str, str] | None:
+    if entry.behaviour is None:
+        return None
+    return {"start" if isinstance(entry.behaviour, ByStart) else "call": behaviour_name(entry)}
