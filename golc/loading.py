@@ -10,6 +10,7 @@ from golc.diagnostics import Diagnostic, Findings, Severity, UserError
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_source
 from golc.theory.elaborate import elaborate
+from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
 
@@ -36,8 +37,9 @@ def examine(
     file = parse_file(source, findings)
     theory = None if file is None else elaborate(file, source, findings, constants)
     if file is not None and theory is not None:
-        for diagnostic in check(theory, file):
-            findings.add(diagnostic)
+        with deep_recursion():
+            for diagnostic in check(theory, file):
+                findings.add(diagnostic)
     return None if findings.has_errors else theory, sorted(findings.diagnostics, key=_place)
 
 

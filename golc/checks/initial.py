@@ -6,7 +6,7 @@ import itertools
 from collections.abc import Iterator
 
 from golc.diagnostics import Code, Findings
-from golc.theory.closed import STEPS, Closed, Env, NoValueError
+from golc.theory.closed import Closed, Env, NoValueError
 from golc.theory.fitting import describe
 from golc.theory.terms import Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Fluent
@@ -21,17 +21,22 @@ def check_initial(theory: BasicActionTheory, findings: Findings) -> None:
     closed = Closed(theory.statics.get, theory.definitions.get)
     for fluent in theory.fluents.values():
         _check_fluent(fluent, closed, findings)
+        if closed.steps < 0:
+            return
 
 
 def _check_fluent(fluent: Fluent, closed: Closed, findings: Findings) -> None:
     instances = _instances(fluent)
     for args in itertools.islice(instances, LIMIT):
-        closed.steps = STEPS
         if not _check_instance(fluent, args, closed, findings):
             return  # the other instances have probably the same mistake
     if next(instances, None) is not None:
-        message = f"the initial values of `{fluent.name}` are not decided: it has more than {LIMIT} instances"
-        findings.warning(Code.INITIAL_VALUE, message, fluent.initial.span, "evaluated only in part")
+        _not_decided(fluent, f"it has more than {LIMIT} instances", findings)
+
+
+def _not_decided(fluent: Fluent, reason: str, findings: Findings) -> None:
+    message = f"the initial values of `{fluent.name}` are not decided: {reason}"
+    findings.warning(Code.INITIAL_VALUE, message, fluent.initial.span, "evaluated only in part")
 
 
 def _instances(fluent: Fluent) -> Iterator[Env]:
@@ -52,9 +57,15 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
     what = show_call(fluent.name, args)
     try:
         value = closed.evaluate(fluent.initial, args)
-    except NoValueError as error:
-        message = f"the initial value of `{what}` cannot be computed: {error.reason}"
-        findings.error(Code.INITIAL_VALUE, message, error.span, "here")
+    except (NoValueError, RecursionError) as error:
+        closed.depth = 0
+        if closed.steps < 0:
+            _not_decided(fluent, "they take too many steps to evaluate", findings)
+            return False
+        reason, span = ("it is nested too deeply", fluent.initial.span)
+        if isinstance(error, NoValueError):
+            reason, span = error.reason, error.span
+        findings.error(Code.INITIAL_VALUE, f"the initial value of `{what}` cannot be computed: {reason}", span, "here")
         return False
     if value in fluent.type:
         return True

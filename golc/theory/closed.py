@@ -30,8 +30,8 @@ from golc.theory.types import Value, show, show_call
 Env = tuple[Value, ...]
 """The values of the variables in scope, by level."""
 
-STEPS = 1_000_000
-"""How many terms a single value may take: whatever needs more is taken for endless."""
+STEPS = 2_000_000
+"""How many terms one evaluator evaluates, some seconds' worth: whatever needs more is taken for endless."""
 
 DEPTH = 2_000
 """How many calls of static functions and definitions may be open at a time."""
@@ -63,7 +63,7 @@ class Closed:
         """The value of a term; ``env`` has a value for every variable in scope."""
         self.steps -= 1
         if self.steps < 0:
-            raise NoValueError(f"it takes more than {STEPS} steps to evaluate", term.span)
+            raise NoValueError(f"it takes too many steps to evaluate (golc gives up after {STEPS})", term.span)
         match term:
             case Literal(value=value):
                 return value
@@ -179,13 +179,9 @@ class Closed:
 
 def arithmetic(op: Operator, numbers: list[int], span: Span) -> Value:
     """What an operator makes of numbers; raises ``NoValueError`` for a division by zero."""
+    if op in (Operator.ADD, Operator.SUBTRACT, Operator.MULTIPLY):
+        return _sum_or_product(op, numbers[0], numbers[1], span)
     match op:
-        case Operator.ADD:
-            return numbers[0] + numbers[1]
-        case Operator.SUBTRACT:
-            return numbers[0] - numbers[1]
-        case Operator.MULTIPLY:
-            return _product(numbers[0], numbers[1], span)
         case Operator.NEGATE:
             return -numbers[0]
         case Operator.ABSOLUTE:
@@ -207,11 +203,15 @@ def arithmetic(op: Operator, numbers: list[int], span: Span) -> Value:
     return numbers[0] // numbers[1] if op is Operator.DIVIDE else numbers[0] % numbers[1]
 
 
-BITS = 100_000
-"""The longest product that is worked out: a chain of squarings would otherwise eat all memory."""
+BITS = 14_000
+"""The largest number that is worked out, about what Python still turns into decimal digits: no chain of squarings shall
+eat all memory."""
 
 
-def _product(left: int, right: int, span: Span) -> int:
-    if left.bit_length() + right.bit_length() > BITS:
-        raise NoValueError(f"the product has more than {BITS} bits", span)
-    return left * right
+def _sum_or_product(op: Operator, left: int, right: int, span: Span) -> int:
+    if op is Operator.MULTIPLY and left.bit_length() + right.bit_length() > BITS:
+        raise NoValueError(f"the number has more than {BITS} bits", span)
+    value = left * right if op is Operator.MULTIPLY else left + right if op is Operator.ADD else left - right
+    if value.bit_length() > BITS:
+        raise NoValueError(f"the number has more than {BITS} bits", span)
+    return value

@@ -61,6 +61,7 @@ class Context:
     situational: dict[str, bool] = field(default_factory=dict)
     """Whether a definition depends on the situation, as far as somebody has asked."""
     _resolved: dict[tuple[str, Entry], Resolved] = field(default_factory=dict)
+    _closed: Closed | None = None
     _active: dict[tuple[str, Entry], None] = field(default_factory=dict)
     _missing: dict[tuple[Code, str], list[Diagnostic]] = field(default_factory=dict)
 
@@ -101,9 +102,11 @@ class Context:
         return resolved
 
     def closed(self) -> Closed:
-        """An evaluator of closed terms over the declarations as far as they are resolved on demand."""
-        values = self.names.values.entries
-        return Closed(lambda name: self.static(values[name]), lambda name: self.definition(values[name]))
+        """The evaluator of closed terms, over declarations that are resolved on demand; all constants share its steps."""
+        if self._closed is None:
+            values = self.names.values.entries
+            self._closed = Closed(lambda name: self.static(values[name]), lambda name: self.definition(values[name]))
+        return self._closed
 
     def _resolve(self, what: str, entry: Entry) -> Resolved:
         key = (what, entry)

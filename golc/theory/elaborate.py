@@ -7,9 +7,7 @@ collects the names, ``context`` resolves each declaration once, the ``elaborate_
 from __future__ import annotations
 
 import re
-import sys
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TypeVar
 
@@ -24,6 +22,7 @@ from golc.theory.calls import circular, substatements
 from golc.theory.context import Context, Resolver, Signature
 from golc.theory.declare import declare
 from golc.theory.elaborate_devices import device_name, devices
+from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
 from golc.theory.terms import DefinedTerm, PossTerm, Term, subterms
@@ -40,9 +39,6 @@ from golc.theory.types import Type
 
 T = TypeVar("T")
 
-DEEP = 1_000_000
-"""Python frames that the elaborator may need: its recursion costs memory, but no C stack."""
-
 
 def elaborate(
     file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str] | None = None
@@ -54,21 +50,16 @@ def elaborate(
     """
     assumed = _unread(file, source) if findings.has_errors else frozenset()
     found = Findings()
-    with _deep_recursion():
-        theory = _elaborate(file, source, found, constants or {}, assumed)
+    theory = None
+    try:
+        with deep_recursion():
+            theory = _elaborate(file, source, found, constants or {}, assumed)
+    except RecursionError:
+        message = "the declarations of this file depend on each other too deeply"
+        found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
     for finding in found.diagnostics:
         findings.add(finding)
     return None if findings.has_errors else theory
-
-
-@contextmanager
-def _deep_recursion() -> Iterator[None]:
-    before = sys.getrecursionlimit()
-    sys.setrecursionlimit(max(before, DEEP))
-    try:
-        yield
-    finally:
-        sys.setrecursionlimit(before)
 
 
 def _unread(file: tree.File, source: Source) -> frozenset[str]:

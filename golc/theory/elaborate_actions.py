@@ -29,8 +29,8 @@ def fluent_signature(context: Context, entry: Entry) -> Signature:
     for parameter in found:
         instances *= 1 if parameter.type is BROKEN else size(parameter.type)
     if instances > LARGEST:
-        message = f"fluent `{entry.name}` has {instances} instances, more than {LARGEST}"
-        context.error(Code.BAD_TYPE, message, entry.span, "too many")
+        message = f"fluent `{entry.name}` has more than {LARGEST} instances"
+        context.error(Code.BAD_TYPE, message, entry.span, "too many to enumerate")
     return Signature(entry, found, type_)
 
 
@@ -166,7 +166,7 @@ def _sources(context: Context, node: tree.Exog) -> tuple[str, ...]:
         start = node.span.start + offset
         span = Span(node.span.source, start, start + len("expected")) if offset >= 0 else node.name.span
         context.unsupported("`expected` exogenous actions are", span)
-    known = (*SOURCES, *context.device_names)
+    known = [*dict.fromkeys((*SOURCES, *context.device_names))]
     for source in node.sources:
         if source.text not in known:
             similar = closest(source.text, known)

@@ -13,7 +13,7 @@ from golc.theory.context import Context, Signature
 from golc.theory.elaborate_actions import SOURCES
 from golc.theory.elaborate_names import arity_fits, doing
 from golc.theory.elaborate_statements import spoken
-from golc.theory.elaborate_types import elaborate_type
+from golc.theory.elaborate_types import LARGEST, elaborate_type
 from golc.theory.elaborate_values import parameter_scope
 from golc.theory.fitting import BROKEN, describe, size
 from golc.theory.scope import Entry, Kind
@@ -37,7 +37,7 @@ KINDS = {
     "rcx": Abilities((tree.ByCall, tree.ByStart), "`by call …` or `by start …`", numbers=True, file='"….nqc"'),
     "operator": Abilities((tree.ByPrompt,), '`by prompt "…"`'),
     "host": Abilities((tree.ByCall,), "`by call …`", file='"….py"'),
-    "self": Abilities((), "nothing, for nothing is sent"),
+    "self": Abilities((), "without a word, for nothing is sent"),
 }
 
 
@@ -162,7 +162,7 @@ def _fits_kind(context: Context, device: tree.Device, abilities: Abilities, node
         message = f"`{entry.name}` is an exogenous action, which a device reports and does not carry out"
         context.error(Code.DEVICE, message, behaviour.span, "leave this out")
     elif behaviour is not None and not isinstance(behaviour, abilities.behaviours):
-        message = f"a device `{kind}` carries out actions by {abilities.said}"
+        message = f"a device `{kind}` carries out actions {abilities.said}"
         context.error(Code.DEVICE, message, behaviour.span, f"not by a device `{kind}`")
     elif behaviour is not None and kind == "host" and device.file is None:
         message = "a device `host` needs the file with its functions"
@@ -176,10 +176,10 @@ def _fits_number(context: Context, node: tree.Binding, args: tuple[Parameter | F
         if isinstance(arg, Parameter) and arg.type.finite:
             count *= size(arg.type)
     if node.number is not None and count > 1 and not node.ranged:
-        message = f"`{node.action.text}` has {count} instances here, and each takes a number"
-        last = node.number + count - 1
-        help_ = f"write `{node.number} .. {node.action.text}…`, which takes {node.number}..{last}"
-        context.error(Code.BINDING, message, node.span, f"takes {count} numbers", help_)
+        many = f"{count}" if count <= LARGEST else f"more than {LARGEST}"
+        message = f"`{node.action.text}` has {many} instances here, and each takes a number"
+        help_ = f"write `{node.number} .. {node.action.text}…`, which takes the numbers from {node.number} on"
+        context.error(Code.BINDING, message, node.span, f"takes {many} numbers", help_)
 
 
 def _args(context: Context, node: tree.Binding, signature: Signature) -> tuple[Parameter | Fixed, ...]:

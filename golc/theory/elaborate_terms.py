@@ -32,7 +32,10 @@ from golc.theory.terms import (
     Variable,
     subterms,
 )
-from golc.theory.types import BOOL, INT, NONE, Enumeration, Optional, Type, Value
+from golc.theory.types import BOOL, INT, NONE, Enumeration, Optional, Type, Value, show
+
+LARGEST = 1000
+"""How large the tests may be that stand for ``x in {a, b}``: each repeats x, so that nested ones would grow like 2ⁿ."""
 
 LOGIC = {"and": Operator.AND, "or": Operator.OR, "implies": Operator.IMPLIES, "iff": Operator.IFF}
 EQUALITY = {"=": Operator.EQUAL, "!=": Operator.DIFFERENT}
@@ -73,7 +76,8 @@ def fits(context: Context, found: Term, needed: Type, what: str) -> bool:
             stack.extend((part.args[2], part.args[0]))
         elif isinstance(part, Literal) and part.type is not BROKEN and overlap(part.type, needed):
             if part.value not in needed:
-                message = f"`{_shown(part)}` is outside {describe(needed)}"
+                value = "" if _shown(part) == show(part.value) else f" is {show(part.value)}, which"
+                message = f"`{_shown(part)}`{value} is outside {describe(needed)}"
                 context.error(Code.OUTSIDE_TYPE, message, part.span, f"{what} needs {describe(needed)}")
                 good = False
         elif not overlap(part.type, needed):
@@ -405,8 +409,7 @@ def _one_of(context: Context, scope: Scope, element: Term, nodes: tuple[tree.Exp
     pairs = [_member(choice) for choice in choices]
     constants = [pair for pair in pairs if pair is not None]
     if len(constants) < len(choices):
-        if sum(1 for _ in itertools.islice(subterms(element), 200)) * len(choices) > 2000:
-            # Each test repeats the element, so that nested ones would grow without bounds.
+        if len([*itertools.islice(subterms(element), LARGEST // len(choices) + 1)]) * len(choices) > LARGEST:
             context.error(Code.UNSUPPORTED, "this term is too large to be compared with several others", element.span)
             return broken(span)
         tests = [Operation(Operator.EQUAL, (element, choice), type=BOOL, span=choice.span) for choice in choices]

@@ -47,7 +47,7 @@ def finite_type(context: Context, node: tree.Type, what: str) -> Type:
         context.error(Code.BAD_TYPE, message, node.span, "has no end", help_)
         return BROKEN
     if size(type_) > LARGEST:
-        context.error(Code.BAD_TYPE, f"{what} has {size(type_)} values, more than {LARGEST}", node.span, "too many")
+        context.error(Code.BAD_TYPE, f"{what} has more than {LARGEST} values", node.span, "too many to enumerate")
         return BROKEN
     return type_
 

@@ -69,13 +69,20 @@ def evaluated(context: Context, found: Term) -> Literal | None:
     """The value of a closed term as a literal; a finding if it has none."""
     if isinstance(found, Literal):
         return found
+    closed = context.closed()
+    around, closed.depth = (
+        closed.depth,
+        0,
+    )  # evaluating may resolve a declaration, which evaluates a constant of its own
     try:
-        return Literal(context.closed().evaluate(found), type=found.type, span=found.span)
+        return Literal(closed.evaluate(found), type=found.type, span=found.span)
     except NoValueError as error:
         if error.reason:
             context.error(Code.NO_VALUE, f"this has no value: {error.reason}", error.span)
     except RecursionError:
         context.error(Code.NO_VALUE, "this has no value: it is nested too deeply to be evaluated", found.span)
+    finally:
+        closed.depth = around
     return None
 
 
