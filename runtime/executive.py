@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
 from golc.planning.planner import Executable
 from golc.program.blame import Blocked as Why
+from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Abort, Act, Say, Silent, Transition, Wait
 from golc.program.nodes import Node
 from golc.runtime.clock import Clock
@@ -42,9 +43,6 @@ from golc.runtime.policy import Policy
 from golc.situation.dynamics import Surprise
 from golc.situation.layout import State
 from golc.theory.types import show
-
-CIRCLES = 100_000
-"""Steps in a row without an action or an event after which a program is said to run in circles."""
 
 
 @dataclass(frozen=True)
@@ -161,8 +159,7 @@ class Executive(Intake):
             case Abort(text=text, span=span):
                 raise ProgramError(Diagnostic(Code.ABORTED, text or "the program aborts", span))
         if quiet >= CIRCLES:
-            message = f"the program runs in circles: {CIRCLES} steps without an action or an event"
-            raise ProgramError(Diagnostic(Code.RUNS_IN_CIRCLES, message, label.span, help="let it `wait` for an event"))
+            raise runs_in_circles(label.span)
 
     def _commit(self, label: Act) -> bool:
         """Have a device do an action and apply its effects; False if it was not done, or is to be decided anew."""

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from golc.planning.limits import Budget
+from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Act, Label, Transition
 from golc.program.nodes import Node
 from golc.program.step import Machine, Path
@@ -33,14 +34,26 @@ class DeadEnd:
 
 @dataclass(slots=True)
 class _Step:
-    """A pair on the current way, the label that led to it, the actions up to it, and its transitions still to try."""
+    """A pair on the current way, the label that led to it, and its transitions still to try.
+
+    ``actions`` counts the actions up to it, ``quiet`` the steps since the last one.
+    """
 
     label: Label | None
     node: Node
     state: State
     actions: int
+    quiet: int
     transitions: Iterator[Transition]
     leads_on: bool = field(default=False)
+
+    def count(self, label: Label) -> tuple[int, int]:
+        """``actions`` and ``quiet`` after one more step; a program that runs in circles is an error."""
+        if isinstance(label, Act):
+            return self.actions + 1, 0
+        if self.quiet >= CIRCLES:
+            raise runs_in_circles(label.span)
+        return self.actions, self.quiet + 1
 
 
 def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:
@@ -49,22 +62,22 @@ def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: D
     ``machine`` looks ahead. Raises ``LimitError`` at a limit; ``dead_end`` is told where the search got stuck.
     """
     reached: dict[tuple[Node, State], int] = {(node, state): 0}
-    steps = [_Step(None, node, state, 0, machine.transitions(node, state))]
+    steps = [_Step(None, node, state, 0, 0, machine.transitions(node, state))]
     budget.spend()
     while steps:
         step = steps[-1]
         for label, residual in step.transitions:
             step.leads_on = True
-            actions = step.actions + isinstance(label, Act)
+            actions, quiet = step.count(label)
             if not budget.allows(actions):
                 continue
             after = machine.successor(step.state, label)
             if machine.final(residual, after):
-                steps.append(_Step(label, residual, after, actions, iter(())))
+                steps.append(_Step(label, residual, after, actions, quiet, iter(())))
                 return _path(steps)
             if _is_new(reached, (residual, after), actions, budget):
                 budget.spend()
-                steps.append(_Step(label, residual, after, actions, machine.transitions(residual, after)))
+                steps.append(_Step(label, residual, after, actions, quiet, machine.transitions(residual, after)))
                 break
         else:
             if dead_end is not None and not step.leads_on:

@@ -1,0 +1,128 @@
+from __future__ import annotations
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+ELEVATOR = str(ROOT / "examples" / "elevator" / "elevator.gl")
+LIFT = str(ROOT / "tests" / "programs" / "lift.gl")
+
+
+def golc(*arguments: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "golc", *arguments]
+    return subprocess.run(command, capture_output=True, text=True, timeout=60, check=False)
+
+
+def test_a_plan_is_printed_one_action_a_line() -> None:
+    done = golc("plan", LIFT)
+    assert done.returncode == 0
+    assert done.stdout.splitlines() == [
+        "down(3)",
+        "turnoff(3)",
+        "open",
+        "close",
+        "up(5)",
+        "turnoff(5)",
+        "open",
+        "close",
+        "down(0)",
+        "open",
+    ]
+    assert done.stderr == "1 plan\n"
+
+
+def test_all_plans_have_headings() -> None:
+    done = golc("plan", LIFT, "--all")
+    assert done.returncode == 0
+    assert [line for line in done.stdout.splitlines() if line.startswith("#")] == [
+        "# plan 1: 10 actions",
+        "# plan 2: 10 actions",
+    ]
+
+
+def test_only_so_many_plans() -> None:
+    done = golc("plan", LIFT, "--all", "1", "--format", "json")
+    assert done.returncode == 0
+    document = json.loads(done.stdout)
+    assert document["outcome"] == "found"
+    assert [len(plan) for plan in document["plans"]] == [10]
+    assert document["plans"][0][0] == {"action": "down", "args": [3]}
+
+
+def test_a_procedure_may_have_arguments() -> None:
+    assert golc("plan", LIFT, "go(6)").stdout == "up(6)\n"
+
+
+def test_no_plan_says_how_far_it_came_and_why() -> None:
+    done = golc("plan", ELEVATOR, "handle(3)")
+    assert done.returncode == 1
+    assert done.stdout == ""
+    lines = done.stderr.splitlines()
+    assert lines[0] == "no plan for `handle(3)`: proven: it cannot be executed to its end"
+    assert lines[1].startswith("the longest way was: up, up, open, close, off(5); there")
+    assert any("`left > 0` is false" in line for line in lines)
+
+
+def test_giving_up_is_not_proving() -> None:
+    for limit in (["--nodes", "5"], ["--steps", "3"]):
+        done = golc("plan", ELEVATOR, "smart" if limit[0] == "--nodes" else "handle(25)", *limit)
+        assert done.returncode == 3
+        assert done.stderr.startswith("no plan for `")
+
+
+def test_a_constant_may_be_replaced() -> None:
+    done = golc("plan", ELEVATOR, "go_to(12)", "-D", "top=12")
+    assert done.stdout.split() == ["up"] * 9
+
+
+def test_a_plan_may_go_to_a_file(tmp_path: Path) -> None:
+    file = tmp_path / "plan.txt"
+    done = golc("plan", LIFT, "go(6)", "-o", str(file))
+    assert (done.returncode, done.stdout, file.read_text()) == (0, "", "up(6)\n")
+
+
+def test_a_file_that_cannot_be_written_is_a_usage_error(tmp_path: Path) -> None:
+    done = golc("plan", LIFT, "go(6)", "-o", str(tmp_path / "missing" / "plan.txt"))
+    assert done.returncode == 1
+    assert "No such file or directory" in done.stderr
+    assert "Traceback" not in done.stderr
+
+
+def test_an_unknown_procedure_is_named_with_a_proposal() -> None:
+    done = golc("plan", ELEVATOR, "parc")
+    assert done.returncode == 1
+    assert "unknown procedure `parc`" in done.stderr
+    assert "did you mean `park`?" in done.stderr
+
+
+def test_a_wrong_argument_is_told() -> None:
+    done = golc("plan", ELEVATOR, "serve(11)")
+    assert done.returncode == 1
+    assert "`n` of `serve` is of type floor (1..10), not `11`" in done.stderr
+
+
+def test_first_and_all_exclude_each_other() -> None:
+    done = golc("plan", ELEVATOR, "--first", "--all")
+    assert done.returncode == 2
+    assert "--first and --all exclude each other" in done.stderr
+
+
+def test_statistics_are_printed_on_request() -> None:
+    done = golc("plan", LIFT, "--stats")
+    assert "1 plan, " in done.stderr
+    assert "expanded in" in done.stderr
+
+
+def test_an_error_while_planning_has_its_place(tmp_path: Path) -> None:
+    domain = tmp_path / "d.gl"
+    domain.write_text(
+        "domain d\ntype t = 1..3\nfluent x: t = 1\naction inc:\n    causes x := x + 1\nproc control:\n"
+        "    while true:\n        inc\n"
+    )
+    done = golc("plan", str(domain))
+    assert done.returncode == 5
+    assert "GL101" in done.stderr
+    assert f"{domain}:5:17" in done.stderr
+    assert "x would become 4, which is outside its type t (1..3)" in done.stderr
