@@ -18,7 +18,7 @@ from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
 from golc.planning.planner import Executable
 from golc.program.blame import Blocked as Why
 from golc.program.circles import CIRCLES, runs_in_circles
-from golc.program.labels import Abort, Act, Say, Silent, Transition, Wait
+from golc.program.labels import Abort, Act, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
@@ -42,7 +42,7 @@ from golc.runtime.intake import Intake
 from golc.runtime.policy import Policy
 from golc.situation.dynamics import Surprise
 from golc.situation.layout import State
-from golc.theory.types import show
+from golc.theory.types import show, show_call
 
 
 @dataclass(frozen=True)
@@ -74,7 +74,7 @@ class Executive(Intake):
         self._node = executable.node
         self._router = router
         self._sources = tuple(sources)
-        self._failed: set[tuple[str, Args]] = set()
+        self._failed: set[Act] = set()
         """The actions that have failed and are not to be tried again before something changes."""
         self._last_failure: DeviceError | None = None
 
@@ -108,7 +108,7 @@ class Executive(Intake):
                 observer(ended)
 
     def _loop(self, node: Node) -> tuple[End, str]:
-        items, final = self._inbox.items, self.machine.final
+        items, final, decide = self._inbox.items, self.machine.final, self.machine.decide
         quiet = 0
         while True:
             if items and self.take_in():
@@ -118,7 +118,7 @@ class Executive(Intake):
                 return self._verdict
             if final(node, self.state):
                 return End.FINAL, "the program is final"
-            choice = self._decide(node)
+            choice = decide(node, self.state, self._failed)
             if choice is None:
                 self._stay_blocked(node)
                 continue
@@ -134,19 +134,6 @@ class Executive(Intake):
                 quiet += 1
                 self._step(label, quiet)
             node = residual
-
-    def _decide(self, node: Node) -> Transition | None:
-        """The transition to take: what the machine says, without the actions that are not to be tried again."""
-        if not self._failed:
-            return self.machine.decide(node, self.state)
-        wait = None
-        for transition in self.machine.transitions(node, self.state):
-            label = transition.label
-            if isinstance(label, Wait):
-                wait = wait or transition
-            elif not isinstance(label, Act) or (label.action, label.args) not in self._failed:
-                return transition
-        return wait
 
     def _step(self, label: Silent | Say | Abort, quiet: int) -> None:
         """A step without an action."""
@@ -220,7 +207,7 @@ class Executive(Intake):
             case Remedy.STOP:
                 raise error
             case Remedy.NEXT:
-                self._failed.add((label.action, label.args))
+                self._failed.add(label)
                 self._last_failure = error
             case Remedy.RETRY:
                 self._inbox.wait(self._policy.retry_after)
@@ -291,11 +278,21 @@ class Executive(Intake):
         labels = tuple(Label(branch.span, _blame(branch)) for branch in branches)
         open_ = self._open()
         message = "the program is blocked" + ("" if open_ else ", and no source is open that could report anything")
-        return ProgramError(Diagnostic(Code.BLOCKED, message, span, labels=labels))
+        notes = tuple(note for branch in branches if (note := self._since_the_plan(branch)))
+        return ProgramError(Diagnostic(Code.BLOCKED, message, span, labels=labels, notes=notes))
 
-
-def _left(deadline: float | None) -> float | None:
-    return None if deadline is None else max(0.0, deadline - time.monotonic())
+    def _since_the_plan(self, branch: Why) -> str | None:
+        """Where a plan of ``search`` was lost, the exogenous actions since it was made."""
+        if branch.actions is None:
+            return None
+        own, events = 0, []
+        for item in reversed(self.history):
+            own += isinstance(item, Act)
+            if own > branch.actions:
+                break
+            if not isinstance(item, Act):
+                events.append(show_call(item.action, item.args))
+        return f"exogenous actions since the plan was made: {', '.join(reversed(events))}" if events else None
 
 
 def _blame(branch: Why) -> str:

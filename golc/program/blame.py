@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import Span
+from golc.program.labels import Act
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.terms import DefinedTerm, FluentTerm, Operation, Operator, StaticTerm, Term, Variable, subterms
@@ -14,6 +15,7 @@ from golc.theory.types import Value, show, show_call
 
 if TYPE_CHECKING:
     from golc.program.rules import Rule
+    from golc.program.step import Path
 
 
 @dataclass(frozen=True)
@@ -27,11 +29,15 @@ class Blamed:
 
 @dataclass(frozen=True)
 class Blocked:
-    """A branch that cannot go on: its place, a sentence, and the values of what the failed condition speaks of."""
+    """A branch that cannot go on: its place, a sentence, and the values of what the failed condition speaks of.
+
+    ``actions``: where a plan of ``search`` was lost, how many actions had been done under it.
+    """
 
     span: Span
     text: str
     values: tuple[tuple[str, Value], ...] = ()
+    actions: int | None = None
 
     def __str__(self) -> str:
         values = ", ".join(f"{name} = {show(value)}" for name, value in self.values)
@@ -55,6 +61,8 @@ def explain(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
             return Blocked(span, "no value can be picked")
         case "waits":
             return Blocked(span, "look-ahead cannot wait for an event that is not expected")
+        case "lost":
+            return _lost(dynamics, state, *details)
         case _:
             return Blocked(span, "`search` finds no way to the end of its block")
 
@@ -67,6 +75,18 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
                 text = f"`{call}` is not possible: `{_text(part)}` is false"
                 return Blocked(span, text, _values(dynamics, part, state, args))
     return Blocked(span, f"`{call}` is not possible")
+
+
+def _lost(dynamics: Dynamics, state: State, path: Path, index: int) -> Blocked:
+    """A plan that no longer leads to the end: what it expected, and how the state is instead."""
+    expected = dynamics.show(path.states[index])
+    changed = tuple((name, value) for name, value in dynamics.show(state).items() if expected[name] != value)
+    were = ", ".join(f"{name} = {show(expected[name])}" for name, _ in changed)
+    text = "the plan of `search` no longer leads to its end, and alternatives that it has passed are lost"
+    if changed:
+        text += f"; it counted on {were}"
+    at = path.labels[index].span if index < len(path.labels) else path.labels[-1].span
+    return Blocked(at, text, changed, sum(isinstance(label, Act) for label in path.labels[:index]))
 
 
 def _conjuncts(term: Term) -> Iterator[Term]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Protocol
@@ -58,14 +58,15 @@ class Machine:
         """Whether the program may end in this state."""
         return node.may_finish and Proof(self, state, node, entered).succeeds()
 
-    def decide(self, node: Node, state: State) -> Transition | None:
-        """The transition that the online loop takes: a test step if there is one, otherwise the first action step,
-        otherwise a wait; none if the program is blocked."""
+    def decide(self, node: Node, state: State, barred: Collection[Act] = ()) -> Transition | None:
+        """The transition that the online loop takes: a test step if there is one, otherwise the first action step that
+        is not barred, otherwise a wait; none if the program is blocked."""
         action = wait = None
         for found in Walk(self, state, node):
             label = found[0]
             if isinstance(label, Act):
-                action = action or found
+                if action is None and label not in barred:
+                    action = found
             elif isinstance(label, Wait):
                 wait = wait or found
             else:
@@ -97,21 +98,26 @@ class Machine:
 
     def begin_search(self, rule: Rule, body: Node, state: State) -> Found:
         """The first step of a way to the end of a ``search`` block."""
-        return self._step(rule, self._path(body, state), 0)
+        path = self._path(body, state)
+        if path is None:
+            self.blame(rule, "no way")
+            return None
+        return self._step(path, 0)
 
     def follow(self, rule: Rule, path: Path, index: int, state: State) -> Found:
         """The next step of a path, which is replayed, or the rest searched anew, if the state is not as expected."""
         current: Path | None = path
+        done = index
         if path.states[index] != state:
             current, index = self._replayed(path, index, state) or self._path(path.programs[index], state), 0
         if current is not None and index == len(current.labels):
             current, index = self._path(current.programs[-1], state), 0
-        return self._step(rule, current, index)
-
-    def _step(self, rule: Rule, path: Path | None, index: int) -> Found:
-        if path is None:
-            self.blame(rule, "no way")
+        if current is None:
+            self.blame(rule, "lost", path, done)
             return None
+        return self._step(current, index)
+
+    def _step(self, path: Path, index: int) -> tuple[Label, Node]:
         return path.labels[index], self.program.node(self.program.following, (path, index + 1))
 
     def _replayed(self, path: Path, index: int, state: State) -> Path | None:

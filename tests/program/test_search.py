@@ -79,7 +79,15 @@ def test_an_alternative_already_passed_is_lost(start: Start) -> None:
             or:
                 b
     """)
-    assert program.take().event("set_x", 4).run() == ["blocked"]
+    after = program.take().event("set_x", 4)
+    assert after.run() == ["blocked"]
+    [reason] = after.machine.why_blocked(after.node, after.state)
+    assert reason.text == (
+        "the plan of `search` no longer leads to its end, and alternatives that it has passed are lost; "
+        "it counted on x = 0"
+    )
+    assert reason.values == (("x", 4),)
+    assert reason.actions == 1
 
 
 def test_search_may_end_without_a_step(start: Start) -> None:

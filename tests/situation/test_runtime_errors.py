@@ -1,0 +1,70 @@
+"""Every error of the language at run time: its place and its text, from generated code and from the tree."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pytest
+
+from golc.diagnostics import Findings, ProgramError, Source
+from golc.situation.dynamics import Dynamics
+from golc.syntax.parse import parse_file
+from golc.theory.elaborate import elaborate
+
+DOMAIN = """domain d
+type t = 1..3
+type side = {left, right}
+fluent x: int = 0
+fluent y: t = 1
+fluent z: t? = none
+fluent on(n: t): bool = false
+static half(n: int): int = 10 // n
+static small(n: int): t = n
+static ever(n: int): int = ever(n + 1)
+"""
+
+ERRORS = [
+    ("x := 1 // x", "GL103", "1 // x", "division by zero"),
+    ("x := 1 % x", "GL103", "1 % x", "division by zero"),
+    ("x := half(x)", "GL103", "10 // n", "division by zero"),
+    ("y := y + 3", "GL101", "y + 3", "y would become 4, which is outside its type t (1..3)"),
+    ("on(x) := true", "GL100", "x", "argument 0 of on is outside its type t (1..3)"),
+    ("x := 1 when on(y + 7)", "GL100", "y + 7", "argument 8 of on is outside its type t (1..3)"),
+    ("x := small(7)", "GL101", "n", "small(7) would become 7, which is outside its type t (1..3)"),
+    ("x := z + 1", "GL102", "z", "an operand is `none`, where a value is needed"),
+    ("x := 1 when z < 2", "GL102", "z", "an operand is `none`, where a value is needed"),
+    ("on(z) := true", "GL102", "z", "an argument of on is `none`, where a value is needed"),
+    ("x := min n: t where on(n). n", "GL104", "min n: t where on(n). n", "`min` over nothing has no value"),
+    ("x := ever(0)", "GL106", "ever", "the recursion of ever does not end, or goes too deep"),
+    ("forall n: t. y := n", "GL105", "causes forall n: t. y := n", "two effects give y the values 1 and 2"),
+]
+
+
+@pytest.mark.parametrize(("effect", "code", "place", "message"), ERRORS, ids=[error[0] for error in ERRORS])
+def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: str, place: str, message: str) -> None:
+    findings, source = Findings(), Source("d.gl", f"{DOMAIN}action a:\n    causes {effect}\n")
+    file = parse_file(source, findings)
+    theory = elaborate(file, source, findings) if file else None
+    assert theory is not None, findings.diagnostics
+    dynamics = Dynamics(theory)
+    state = dynamics.initial()
+    ways: list[Callable[[], object]] = [
+        lambda: dynamics.progress(state, "a", ()),
+        lambda: dynamics.interpreter.progress(theory.actions["a"], state, ()),
+    ]
+    for way in ways:
+        with pytest.raises(ProgramError) as caught:
+            way()
+        diagnostic = caught.value.diagnostic
+        assert diagnostic.code.code == code
+        assert diagnostic.span.text.strip() == place
+        assert diagnostic.message == message
+
+
+def test_what_is_not_evaluated_is_no_error() -> None:
+    findings, source = Findings(), Source("d.gl", f"{DOMAIN}action a:\n    causes x := 1 when x != 0 and 1 // x = 1\n")
+    file = parse_file(source, findings)
+    theory = elaborate(file, source, findings) if file else None
+    assert theory is not None, findings.diagnostics
+    dynamics = Dynamics(theory)
+    assert dynamics.progress(dynamics.initial(), "a", ()) == dynamics.initial()
