@@ -166,8 +166,25 @@ def test_an_event_that_comes_after_its_poll_is_kept(talk: Script) -> None:
     assert brick.statistics.late == 1
 
 
-def test_a_late_event_of_two_digits_is_acknowledged(talk: Script) -> None:
-    line, brick = talk({83: [[(0.5, 53)], [84]], 36: [[(0.5, 64)]], 82: [[36]]})
+def test_a_late_event_of_two_digits_waits_for_the_next_poll(talk: Script) -> None:
+    line, brick = talk({83: [[(0.5, 53)], [53], [84]], 36: [[(0.5, 64)]], 82: [[36]]})
+    assert brick.poll() is None
+    assert brick.perform(4) == 0
+    assert brick.poll() == 69
+    assert line.numbers == [83, 36, 83, 82]
+
+
+def test_a_late_event_of_two_digits_between_exchanges_is_acknowledged(talk: Script) -> None:
+    line, brick = talk({83: [[(0.5, 53)], [84]], 36: [[64]], 82: [[36]]})
+    assert brick.poll() is None
+    line.time += 1
+    assert brick.perform(4) == 0
+    assert brick.poll() == 69
+    assert line.numbers == [83, 82, 36]
+
+
+def test_without_memory_a_late_event_of_two_digits_is_acknowledged_at_once(talk: Script) -> None:
+    line, brick = talk({83: [[(0.5, 53)], [84]], 36: [[(0.5, 64)]], 82: [[36]]}, remembers=False)
     assert brick.poll() is None
     assert brick.perform(4) == 0
     assert brick.poll() == 69

@@ -46,6 +46,18 @@ def test_the_echo_is_known_by_its_place_not_by_its_content(air: Any) -> None:
     assert tower.receive(line.now() + 1) is None
 
 
+def test_a_tower_that_does_not_echo_may_bring_what_was_just_sent(air: Any) -> None:
+    line = air(lambda heard, at: [(0.05, heard)])
+    tower = Tower(line)
+    for number in (36, 37, 38):
+        tower.send(number)
+        line.arrive(line.now(), frame(64))
+        assert tower.receive(line.now() + 0.1) == 64
+        tower.receive(line.now() + 1)
+    tower.send(82)
+    assert tower.receive(line.now() + 1) == 82
+
+
 def test_a_few_bytes_of_noise_may_come_before_the_echo(air: Any) -> None:
     line = air(replying(64), echo=True)
     tower = Tower(line)

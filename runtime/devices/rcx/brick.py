@@ -120,7 +120,7 @@ class Brick:
         with self._abort_on_panic():
             self._exchange.catch_up()
             if not self._exchange.events:
-                self._count_silence(self._request())
+                self._count_silence(self._request(self._timing.poll))
         return self._exchange.events.popleft() if self._exchange.events else None
 
     def abort(self, confirm: bool = True) -> None:
@@ -141,7 +141,7 @@ class Brick:
             # The brick keeps only the last message, so it gets the time to read this one.
             self._exchange.let_pass(self._timing.poll)
             try:
-                if self._request():
+                if self._request(self._timing.poll):
                     return
             except PanicError:
                 unconfirmed = PanicError("the brick panics and does not obey the abort", "restart its program by hand")
@@ -247,10 +247,10 @@ class Brick:
             return self._exchange.nonsense_error()
         return SilentBrickError(f"the brick does not answer action {action.number} ({remark})", CHECK_HELP)
 
-    def _request(self) -> bool:
+    def _request(self, wait: float) -> bool:
         """Ask for an exogenous action, which goes into the queue; whether the brick has answered at all."""
         self.statistics.polls += 1
-        answer = self._exchange.ask(self._numbers.request, self._polled, self._timing.poll)
+        answer = self._exchange.ask(self._numbers.request, self._polled, wait)
         if answer is None:
             self.statistics.unanswered += 1
             self._exchange.expect_late()
@@ -284,7 +284,7 @@ class Brick:
         if not looks_old and not self._exchange.stale:
             return
         for _ in range(PROBES):
-            if self._request():
+            if self._request(self._timing.answer / PROBES):
                 return
         if looks_old:
             raise self._silent(action, f"{PROBES} polls before it were not answered")

@@ -136,9 +136,12 @@ class Exchange:
         return None
 
     def catch_up(self) -> None:
-        """Sort what has arrived since the last exchange."""
-        while (heard := self._tower.receive(self._tower.now())) is not None:
-            self._stray(heard)
+        """Sort what has arrived since the last exchange; the rest of a number that has begun is waited for."""
+        wait = 0.0
+        while (heard := self._tower.receive(self._tower.now() + wait)) is not None:
+            self._stray(heard, between=True)
+            wait = self._timing.poll if self._late_digits else 0.0
+        self._late_digits.clear()
 
     def let_pass(self, seconds: float) -> None:
         """Listen for a while and ignore everything: the brick is being reset."""
@@ -157,18 +160,20 @@ class Exchange:
         self._late_digits.clear()
         self._late_until = float("-inf")
 
-    def _stray(self, heard: int) -> None:
-        """Something that is no answer to what was asked."""
+    def _stray(self, heard: int, between: bool = False) -> None:
+        """Something that is no answer to what was asked, or comes between exchanges."""
+        # A brick that remembers must not hear anything else before a message is sent again; nor does it need to, since
+        # it keeps an event until it is acknowledged and does nothing twice. Another one must not be left alone.
+        may_speak = between or not self._remembers
         if heard == self._numbers.panic:
-            raise PanicError("the brick panics", None)
+            raise PanicError("the brick panics")
         if self._tower.now() <= self._late_until and (
             heard == self._numbers.none or heard in self._numbers.actions.all
         ):
-            if heard != self._numbers.none:
+            if heard != self._numbers.none and (may_speak or heard in self._numbers.actions.last):
                 self._late_digit(heard)
         elif self.stale and self._is_reply(heard):
-            # The brick does something for the second time; it must not be left alone with that.
-            if heard == self._numbers.more_time or heard in self._numbers.values.more:
+            if may_speak and (heard == self._numbers.more_time or heard in self._numbers.values.more):
                 self.send(self._numbers.proceed)
         else:
             self._count_nonsense(heard)

@@ -35,6 +35,10 @@ ECHO_SLACK = 4
 """Bytes of noise (and the wake byte) that may stand before an echo."""
 
 
+NO_ECHO = 3
+"""Replies in a row without an echo before them, after which a tower counts as one that does not echo."""
+
+
 @dataclass
 class TowerStatistics:
     """What went through a tower."""
@@ -61,6 +65,7 @@ class Tower:
         self._inbox: deque[int] = deque()
         self._held = b""  # received after the last send, and possibly the beginning of its echo
         self._expected = b""  # the echo that has not come yet
+        self._echoes_missed = 0
         self._sending_until = float("-inf")
         self._heard_at = float("-inf")
 
@@ -98,10 +103,7 @@ class Tower:
         self._listen(max(self._heard_at + QUIET_SECONDS, self._sending_until))
         if self.now() - self._sending_until > AWAKE_SECONDS:
             self._wake()
-        self._settle_echo()
-        frame = encode_message(number)
-        self._expected = frame
-        self._transport.write(frame)
+        self._write(encode_message(number))
         self._sending_until = self.now() + MESSAGE_SECONDS
         self.statistics.sent += 1
         logger.debug("%s: -> %d", self.name, number)
@@ -128,10 +130,14 @@ class Tower:
 
     def _wake(self) -> None:
         self.statistics.wakes += 1
-        self._settle_echo()
-        self._expected = WAKE
-        self._transport.write(WAKE)
+        self._write(WAKE)
         self._listen(self.now() + WAKE_SECONDS)
+
+    def _write(self, data: bytes) -> None:
+        self._settle_echo()
+        # Without echoes, a reply may well be the same message: both sides say "continue".
+        self._expected = data if self._echoes_missed < NO_ECHO else b""
+        self._transport.write(data)
 
     def _take(self, data: bytes) -> None:
         """Sort received bytes into the echo of what was just sent and what came from elsewhere.
@@ -143,7 +149,9 @@ class Tower:
         size = len(self._expected)
         if size and (start := self._held.find(self._expected, 0, size + ECHO_SLACK)) >= 0:
             self.statistics.echoes += 1
+            self._echoes_missed = 0
             self._held = self._held[:start] + self._held[start + size :]
+            self._expected = b""
         elif size and self._echo_may_come():
             return
         self._settle_echo()
@@ -154,12 +162,15 @@ class Tower:
 
     def _settle_echo(self) -> None:
         """Wait for no echo any longer: what is held goes to the decoder."""
-        held, self._held, self._expected = self._held, b"", b""
+        held, self._held = self._held, b""
         for packet in self._decoder.feed(held):
             if packet.opcode == MESSAGE and packet.parameters != b"\0":
                 self._inbox.append(packet.parameters[0])
                 self.statistics.heard += 1
                 self._heard_at = self.now()
+                self._echoes_missed += bool(self._expected)
+                self._expected = b""
+        self._expected = b""
         self.statistics.noise = self._decoder.noise
 
 
