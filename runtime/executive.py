@@ -116,10 +116,10 @@ class Executive(Intake):
                 self._failed.clear()
             if self._verdict is not None:
                 return self._verdict
-            if final(node, self.state):
-                return End.FINAL, "the program is final"
             choice = decide(node, self.state, self._failed)
             if choice is None:
+                if final(node, self.state):
+                    return End.FINAL, "the program is final"
                 self._stay_blocked(node)
                 continue
             label, residual = choice

@@ -94,6 +94,8 @@ class On:
 class Interrupts(Rule):
     """*⟨φ → δ⟩* in order of priority, none of them active."""
 
+    steps_when_final = False
+
     def __init__(self, span: Span, handlers: tuple[On, ...]) -> None:
         super().__init__(span)
         self.handlers = handlers
@@ -117,6 +119,8 @@ class Active(Rule):
 
     A body that is final goes on if it can; as soon as anything else of the block steps, it has ended.
     """
+
+    steps_when_final = False
 
     def __init__(self, span: Span, interrupts: Interrupts) -> None:
         super().__init__(span)
@@ -159,36 +163,49 @@ class Attempt(Rule):
         self.fire = Fire(interrupts)
 
     def trans(self, walk: Walk, node: Turn) -> Found:
+        """Go on to the next interrupt that is active or may fire, and come back for the others below it."""
         if node.token.used:
             return None
-        index = node.next
-        if index + 1 < len(node.bodies):
-            walk.push_task(self, node._replace(next=index + 1))
-        body = node.bodies[index]
-        if node.going_on[index] is None:
-            handler = self.interrupts.handlers[index]
-            walk.push_task(self.fire, (node, handler.environments(walk.state, node.env)))
-        if body is not None:
-            walk.push_inside(body, self.interrupts.frame(walk, node))
+        for index in range(node.next, len(node.bodies)):
+            body, inner, environments = node.bodies[index], None, None
+            if node.going_on[index] is None:
+                handler = self.interrupts.handlers[index]
+                environments = handler.environments(walk.state, node.env)
+                inner = next(environments, None)
+                if inner is None:
+                    walk.machine.blame(self, "no interrupt", handler, node.env)
+            if body is None and inner is None:
+                continue
+            turn = node._replace(next=index)
+            if index + 1 < len(node.bodies):
+                walk.push_task(self, node._replace(next=index + 1))
+            if environments is not None and inner is not None:
+                walk.push_task(self.fire, (turn, inner, environments))
+            if body is not None:
+                walk.push_inside(body, self.interrupts.frame(walk, turn))
+            break
         return None
 
 
 class Fire(Rule):
-    """An interrupt that is not active, or whose body is final: the first binding whose body can step."""
+    """An interrupt that is not active, or whose body is final: the first binding whose body can step.
+
+    The operand is the turn, the binding that is next (none: it is still to be looked for), and those after it.
+    """
 
     def __init__(self, interrupts: Interrupts) -> None:
         super().__init__(interrupts.span)
         self.interrupts = interrupts
 
-    def trans(self, walk: Walk, node: tuple[Turn, Iterator[Env]]) -> Found:
-        turn, environments = node
+    def trans(self, walk: Walk, node: tuple[Turn, Env | None, Iterator[Env]]) -> Found:
+        turn, inner, environments = node
         if turn.token.used:
             return None
-        handler = self.interrupts.handlers[turn.next]
-        inner = next(environments, None)
         if inner is None:
-            walk.machine.blame(self, "no interrupt", handler, turn.env)
-            return None
-        walk.push_task(self, node)
-        walk.push_inside(walk.machine.program.at(handler.body, inner), self.interrupts.frame(walk, turn))
+            inner = next(environments, None)
+            if inner is None:
+                return None
+        walk.push_task(self, (turn, None, environments))
+        body = self.interrupts.handlers[turn.next].body
+        walk.push_inside(walk.machine.program.at(body, inner), self.interrupts.frame(walk, turn))
         return None

@@ -40,10 +40,11 @@ class Rule:
 
     ``may_finish``: whether its nodes can be final at all; with ``needs_all`` they can if all their operands can.
     ``dead``: the levels of the environment that the statement does not read. ``closed``: the only node of a statement
-    that reads no variable.
+    that reads no variable. ``steps_when_final``: whether a final node may have transitions.
     """
 
     may_finish = True
+    steps_when_final = True
     needs_all = False
     dead: frozenset[int] = frozenset()
     closed: Node | None = None

@@ -60,7 +60,9 @@ class Machine:
 
     def decide(self, node: Node, state: State, barred: Collection[Act] = ()) -> Transition | None:
         """The transition that the online loop takes: a test step if there is one, otherwise the first action step that
-        is not barred, otherwise a wait; none if the program is blocked."""
+        is not barred, otherwise a wait; none if the program is final or blocked."""
+        if node.rule.steps_when_final and self.final(node, state):
+            return None
         action = wait = None
         for found in Walk(self, state, node):
             label = found[0]
