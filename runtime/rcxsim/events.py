@@ -81,7 +81,9 @@ USUAL_END = 0.95
 PERSON_REACTS = (1.5, 4.0)
 """Seconds that the robot stands before a person does something with it."""
 PERSON_RETURNS = (12.0, 30.0)
-"""Seconds until a person does something again with a robot that still stands."""
+"""Seconds until a person does something again with a robot that still stands, ..."""
+PERSON_TIRES = 3.0
+"""... which grow by this factor each time, so that a run that has nothing more to do comes to rest."""
 WORLD_MOVES_EVERY = 12.0
 """Mean seconds between events that come by themselves and change something."""
 WEIGHT_OF_CHANGE = 4
@@ -112,6 +114,7 @@ class Chance:
     _tasks: list[_Task] = field(default_factory=list)
     _busy: bool = False
     _person: float | None = None
+    _tired: float = 1.0
     _world: float | None = None
 
     def heard(self, now: float) -> None:
@@ -149,7 +152,8 @@ class Chance:
                 self._stands(now)
                 return [] if event is None else [event]
         if self._person is not None and self._person <= now:
-            self._person = now + self.random.uniform(*PERSON_RETURNS)
+            self._person = now + self.random.uniform(*PERSON_RETURNS) * self._tired
+            self._tired *= PERSON_TIRES
             return self._choose([event for event in self._ground() if self.world.possible(*event)])
         if self._world is not None and self._world <= now:
             self._world = now + self._interval()
@@ -177,6 +181,7 @@ class Chance:
     def _stands(self, now: float) -> None:
         if not self._busy and not self._tasks:
             self._person = now + self.random.uniform(*PERSON_REACTS)
+            self._tired = 1.0
 
     def _interval(self) -> float:
         return 1.0 + self.random.expovariate(1 / WORLD_MOVES_EVERY)

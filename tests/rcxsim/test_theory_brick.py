@@ -230,6 +230,18 @@ def test_chance_waits_for_the_host_to_take_an_event(wire: MakeWire) -> None:
     assert len(lift.told("happened")) == 1
 
 
+def test_robot_that_stands_comes_to_rest(wire: MakeWire, tmp_path: Path) -> None:
+    file = tmp_path / "button.gl"
+    file.write_text(
+        'domain button\n\naction nod\nexog press\n\ndevice rcx "b.nqc":\n    0 nod by call nod\n    1 press\n'
+    )
+    button = wire(None, theory=load(file), sleep=None)
+    button.act(32)
+    presses = [time for time, _ in button.events(1000)]
+    assert 4 <= len(presses) <= 6
+    assert presses[3] - presses[2] > 100
+
+
 def test_abort_ends_a_task(wire: MakeWire) -> None:
     lift = wire(None)
     lift.say(33)
