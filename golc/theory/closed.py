@@ -7,12 +7,12 @@ from Python code alone, never through a builtin like ``any``: then a deep term c
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import cast
 
 from golc.diagnostics import Span
-from golc.theory.fitting import describe, size
+from golc.theory.fitting import describe
 from golc.theory.terms import (
     DefinedTerm,
     Literal,
@@ -30,8 +30,8 @@ from golc.theory.types import Value, show, show_call
 Env = tuple[Value, ...]
 """The values of the variables in scope, by level."""
 
-STEPS = 2_000_000
-"""How many terms one evaluator evaluates, some seconds' worth: whatever needs more is taken for endless."""
+STEPS = 500_000
+"""How many terms one evaluator evaluates, about a second's worth: whatever needs more is taken for endless."""
 
 DEPTH = 2_000
 """How many calls of static functions and definitions may be open at a time."""
@@ -120,7 +120,7 @@ class Closed:
 
     def _quantified(self, term: Quantified, env: Env) -> Value:
         found: list[int] = []
-        for values in self._bindings(term):
+        for values in itertools.product(*[binder.values for binder in term.binders]):
             inner = (*env, *values)
             if term.where is not None and not self.evaluate(term.where, inner):
                 continue
@@ -139,11 +139,6 @@ class Closed:
                 if not found:
                     raise NoValueError(f"`{kind}` over nothing has no value", term.span)
                 return min(found) if kind == "min" else max(found)
-
-    def _bindings(self, term: Quantified) -> Iterable[Env]:
-        if sum([size(binder.variable.type) for binder in term.binders]) > self.steps:
-            raise NoValueError("it runs over too many values", term.span)
-        return itertools.product(*[binder.values for binder in term.binders])
 
     def _operation(self, term: Operation, env: Env) -> Value:
         args = term.args

@@ -102,7 +102,7 @@ class Context:
         return resolved
 
     def closed(self) -> Closed:
-        """The evaluator of closed terms, over declarations that are resolved on demand; all constants share its steps."""
+        """The evaluator of closed terms; it resolves declarations on demand, and all constants share its steps."""
         if self._closed is None:
             values = self.names.values.entries
             self._closed = Closed(lambda name: self.static(values[name]), lambda name: self.definition(values[name]))
