@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 from golc.diagnostics import DeviceError
 from golc.program.labels import Act
-from golc.runtime.desk import Desk, GivenUpError, WrongAnswerError
+from golc.runtime.desk import Desk, WrongAnswerError
+from golc.runtime.devices.base import GivenUpError
 from golc.runtime.devices.rcx.errors import PortGoneError
 from golc.runtime.happenings import Remedy
 

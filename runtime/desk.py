@@ -13,16 +13,13 @@ from collections.abc import Callable
 from typing import TypeVar
 
 from golc.diagnostics import DeviceError
+from golc.runtime.devices.base import GivenUpError
 
 T = TypeVar("T")
 
 
 class WrongAnswerError(Exception):
     """A line that is meant as an answer and is none; the text says why."""
-
-
-class GivenUpError(DeviceError):
-    """A question was given up, because something else must come first."""
 
 
 class Desk:
@@ -77,7 +74,8 @@ class Desk:
     def ask(self, question: str, read: Callable[[str], T]) -> T:
         """Ask until ``read`` makes something of a line.
 
-        ``read`` raises ``WrongAnswerError`` for a line that is no answer. Raises ``DeviceError`` if nobody is there.
+        ``read`` raises ``WrongAnswerError`` for a line that is no answer. Raises ``DeviceError`` if nobody is there,
+        ``GivenUpError`` if the question is interrupted.
         """
         self._begin()
         try:

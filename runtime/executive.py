@@ -21,7 +21,7 @@ from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Abort, Act, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.runtime.clock import Clock
-from golc.runtime.devices.base import Args, Device, Router
+from golc.runtime.devices.base import Args, Device, GivenUpError, Router
 from golc.runtime.ending import release, verdict_on
 from golc.runtime.happenings import (
     Begun,
@@ -200,8 +200,7 @@ class Executive(Intake):
         self.take_in()
         if self._verdict is not None:
             return
-        with self._engaging(self._policy.interrupt):
-            remedy = self._policy.on_failure(label, error)
+        remedy = self._remedy(label, error)
         self.tell(Remedied(self.clock.now(), label.action, label.args, remedy))
         match remedy:
             case Remedy.STOP:
@@ -209,8 +208,15 @@ class Executive(Intake):
             case Remedy.NEXT:
                 self._failed.add(label)
                 self._last_failure = error
-            case Remedy.RETRY:
+            case Remedy.RETRY if not isinstance(error, GivenUpError):
                 self._inbox.wait(self._policy.retry_after)
+
+    def _remedy(self, label: Act, error: DeviceError) -> Remedy:
+        """What is to be done; an action that the operator had given up is simply decided upon anew."""
+        if isinstance(error, GivenUpError):
+            return Remedy.RETRY
+        with self._engaging(self._policy.interrupt):
+            return self._policy.on_failure(label, error)
 
     @contextmanager
     def _engaging(self, interrupt: Callable[[], None]) -> Iterator[None]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeAlias
 
-from golc.diagnostics import Code, Diagnostic, UserError
+from golc.diagnostics import Code, DeviceError, Diagnostic, UserError
 from golc.theory.theory import BasicActionTheory, Binding, Fixed
 from golc.theory.types import Value, show_call
 
@@ -13,6 +13,10 @@ Args: TypeAlias = tuple[Value, ...]
 
 _REMEMBERED = 10_000
 """How many ground actions the router remembers: arguments of type ``int`` are without end."""
+
+
+class GivenUpError(DeviceError):
+    """What a device did was given up because the operator wants something else first; it is no fault of the device."""
 
 
 class Device:
@@ -46,7 +50,7 @@ class Device:
         return []
 
     def interrupt(self) -> None:
-        """Make a ``perform`` under way fail soon; called from other threads."""
+        """Make a ``perform`` under way raise ``GivenUpError`` soon; called from other threads."""
 
     def abort(self) -> None:
         """Stop whatever the device is doing."""

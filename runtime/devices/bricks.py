@@ -9,9 +9,9 @@ from dataclasses import asdict
 
 from golc.diagnostics import DeviceError
 from golc.nqc.numbering import ActionMap
-from golc.runtime.devices.base import Args, Device
+from golc.runtime.devices.base import Args, Device, GivenUpError
 from golc.runtime.devices.rcx.brick import CHECK_HELP, Brick
-from golc.runtime.devices.rcx.errors import SilentBrickError
+from golc.runtime.devices.rcx.errors import InterruptedLinkError, SilentBrickError
 from golc.runtime.devices.rcx.numbers import ClassicParameters
 from golc.runtime.devices.rcx.tower import Tower, open_tower
 from golc.theory.types import show_call
@@ -30,7 +30,8 @@ class Link:
 
     def __init__(self, port: str, speed: float = 1.0) -> None:
         self.port = port
-        self.interrupted = threading.Event()
+        self._interrupted = threading.Event()
+        self._interruptible: int | None = None
         self._speed = speed
         self._lock = threading.Lock()
         self._tower: Tower | None = None
@@ -39,7 +40,7 @@ class Link:
     def tower(self) -> Tower:
         """The tower, opened when it is first asked for; raises ``DeviceError`` if that cannot be done."""
         if self._tower is None:
-            self._tower = open_tower(self.port, self._speed, self.interrupted.is_set)
+            self._tower = open_tower(self.port, self._speed, self._is_interrupted)
         return self._tower
 
     @contextmanager
@@ -51,6 +52,26 @@ class Link:
         finally:
             if owned:
                 self._lock.release()
+
+    @contextmanager
+    def action(self) -> Iterator[None]:
+        """Have the link alone for an action, which ``interrupt`` makes raise ``GivenUpError``; polls are left alone."""
+        self._interruptible = threading.get_ident()
+        try:
+            with self.exchange():
+                yield
+        except InterruptedLinkError as error:
+            raise GivenUpError(str(error)) from error
+        finally:
+            self._interruptible = None
+            self._interrupted.clear()
+
+    def interrupt(self) -> None:
+        """Give up the action under way."""
+        self._interrupted.set()
+
+    def _is_interrupted(self) -> bool:
+        return self._interrupted.is_set() and self._interruptible == threading.get_ident()
 
     def close(self) -> None:
         """Close the tower; does nothing if it is closed."""
@@ -93,8 +114,7 @@ class RcxDevice(Device):
         """Send the action's number and wait for what the brick answers."""
         number = self._actions.encode(action, args)
         timeout = self._actions.timeout(action, args)
-        self._link.interrupted.clear()
-        with self._link.exchange():
+        with self._link.action():
             answer = self._opened().perform(number, timeout)
         entry = self._actions.entry(action, args)
         return () if entry is None or entry.sensed is None else (self._actions.sensed(action, answer, args),)
@@ -123,11 +143,10 @@ class RcxDevice(Device):
         raise DeviceError(f"the brick {self.name} reported {number}, {problem}", help=help_)
 
     def interrupt(self) -> None:
-        self._link.interrupted.set()
+        self._link.interrupt()
 
     def abort(self) -> None:
         """Tell the brick to stop everything; whatever exchange is under way does not matter any more."""
-        self._link.interrupted.clear()
         if self._brick is not None:
             with self._link.exchange(BUSY_SECONDS):
                 self._brick.abort()

@@ -45,10 +45,13 @@ def answer(number: int, mood: str, events: list[int]) -> int | None:
         return 80
     if mood == "confused":
         return 100
-    if number in ACTIONS:
-        events.extend([41] if mood == "strange" else [BROUGHT_ABOUT[number]] if number in BROUGHT_ABOUT else [])
-        return 64
-    return None
+    if number not in ACTIONS:
+        return None
+    if mood == "strange":
+        events.append(41)
+    elif mood != "lost" and number in BROUGHT_ABOUT:
+        events.append(BROUGHT_ABOUT[number])
+    return 64
 
 
 def main() -> None:

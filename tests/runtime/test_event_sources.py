@@ -13,7 +13,8 @@ from hypothesis import strategies as st
 
 from golc.diagnostics import DeviceError, Findings, Source
 from golc.runtime.clock import Clock
-from golc.runtime.desk import Desk, GivenUpError, WrongAnswerError
+from golc.runtime.desk import Desk, WrongAnswerError
+from golc.runtime.devices.base import GivenUpError
 from golc.runtime.exogenous import LONGEST_LINE, Lines, Splitter, Terminal, Timetable, one_line
 from golc.runtime.happenings import Begun, Done
 from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Report

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from golc.diagnostics import Code, DeviceError, ProgramError
-from golc.runtime.devices.base import Args
-from golc.runtime.executive import CIRCLES
+from golc.program.circles import CIRCLES
+from golc.runtime.devices.base import Args, GivenUpError
 from golc.runtime.happenings import (
     Blocked,
     Done,
@@ -499,6 +499,22 @@ def test_a_stop_interrupts_the_action_under_way(start: Start) -> None:
 
     assert run.run().end is End.STOPPED
     assert run.story() == ["a"]
+
+
+def test_an_action_given_up_for_an_abort_is_decided_upon_anew_whatever_the_policy(start: Start) -> None:
+    tried: list[str] = []
+
+    def perform(action: str, args: Args) -> Args:
+        tried.append(action)
+        if len(tried) == 1:
+            run.inbox.put(command("abort", []))
+            raise GivenUpError("given up")
+        return ()
+
+    run = start(program("a"), perform=perform)
+
+    assert run.run().end is End.FINAL
+    assert run.device.told == ["open", "a", "abort", "a", "abort", "close"]
 
 
 def test_the_state_can_be_asked_for_while_an_action_runs(start: Start) -> None:
