@@ -141,7 +141,6 @@ class Code(Enum):
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")
-    BOUND_TWICE = ("GL081", "two bindings have the same ground action")
     NUMBER_CLASH = ("GL082", "two bindings take the same number")
     NUMBER_RANGE = ("GL083", "a number does not fit the brick")
     BINDING_UNBOUNDED = ("GL084", "a binding ranges over a type whose values cannot be listed")
@@ -150,8 +149,6 @@ class Code(Enum):
     NO_END = ("GL087", "a behaviour is started and nothing tells its end")
     NQC_NAME = ("GL088", "a name that NQC does not take")
     DEVICE_SETTING = ("GL089", "a setting of a device makes no sense")
-    DEVICE_KIND = ("GL090", "a device of an unknown kind")
-    BEHAVIOUR_KIND = ("GL091", "a behaviour does not fit the kind of device")
     MESSAGE_RANGES = ("GL092", "two ranges of messages overlap")
     ARGUMENT_NUMBER = ("GL093", "an argument that a behaviour cannot be given")
     NQC_REFUSED = ("GL094", "the NQC compiler refuses the program")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from golc.checks.devices import check_devices
 from golc.checks.initial import check_initial
 from golc.checks.names import check_names
 from golc.checks.programs import check_programs
@@ -16,4 +17,5 @@ def check(theory: BasicActionTheory, file: tree.File) -> list[Diagnostic]:
     check_names(theory, file, findings)
     check_initial(theory, findings)
     check_programs(theory, findings)
+    check_devices(theory, findings)
     return findings.diagnostics

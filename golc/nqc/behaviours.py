@@ -72,13 +72,17 @@ def check_behaviours(actions: ActionMap, nqc: NqcSource, taken: Set[str], findin
 
     ``taken`` are the names that the generated program defines for this theory.
     """
-    if not has_hooks(nqc):
-        for behaviour in wanted(actions):
-            definition = nqc.definitions.get(behaviour.name)
-            if definition is not None:
-                _check_form(behaviour, definition, findings)
+    check_forms(actions, nqc, findings)
     _check_names(nqc, taken, findings)
     _check_messages(actions.wire, nqc, actions.device, findings)
+
+
+def check_forms(actions: ActionMap, nqc: NqcSource, findings: Findings) -> None:
+    """Find behaviours that are tasks where a function is needed, and so on, or that take other arguments."""
+    for behaviour in [] if has_hooks(nqc) else wanted(actions):
+        definition = nqc.definitions.get(behaviour.name)
+        if definition is not None:
+            _check_form(behaviour, definition, findings)
 
 
 def _check_form(behaviour: Wanted, definition: Definition, findings: Findings) -> None:
@@ -200,8 +204,11 @@ def _uses_of_timer(definition: Definition, timer: int) -> Iterator[Span]:
             yield Span(definition.span.source, token.start, body[index + 2].end)
 
 
-def reach(names: Iterable[str], nqc: NqcSource) -> tuple[set[str], set[str]]:
-    """What some behaviours call and start, through others too: every definition reached, and the tasks started."""
+def reach(names: Iterable[str], nqc: NqcSource, starts: bool = True) -> tuple[set[str], set[str]]:
+    """What some behaviours lead to: every definition reached, and those of them that are started as tasks.
+
+    With ``starts=False`` only what runs in the same task is followed.
+    """
     seen: set[str] = set()
     started: set[str] = set()
     waiting = [name for name in names if name in nqc.definitions]
@@ -210,10 +217,11 @@ def reach(names: Iterable[str], nqc: NqcSource) -> tuple[set[str], set[str]]:
         if name in seen:
             continue
         seen.add(name)
-        body = nqc.definitions[name].body
-        for index, token in enumerate(body):
-            if token.text in nqc.definitions:
+        before = ""
+        for token in nqc.definitions[name].body:
+            if token.text in nqc.definitions and before == "start":
+                started.add(token.text)
+            if token.text in nqc.definitions and (before != "start" or starts) and before != "stop":
                 waiting.append(token.text)
-                if index > 0 and body[index - 1].text == "start":
-                    started.add(token.text)
+            before = token.text
     return seen, started

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from golc.nqc.actionmap import ActionMap, Entry, value_number
+from golc.nqc.actionmap import ActionMap, Entry, results, value_number
 from golc.nqc.behaviours import behaviour_name
 from golc.theory.theory import BasicActionTheory, ByStart, Fixed, Parameter
 from golc.theory.types import Type, show
@@ -142,11 +142,10 @@ class Dispatch:
         self._arguments = max(self._arguments, len(entry.args))
         variables = [f"golc_arg{place}" for place in range(1, len(entry.args) + 1)]
         slots = list(zip(variables, entry.args, types, strict=True))
-        varying = [(variable, slot, type_) for variable, slot, type_ in slots if isinstance(slot, Parameter)]
+        varying = [(variable, len(slot.type.values)) for variable, slot, _ in slots if isinstance(slot, Parameter)]
         rest = varying[0][0]
         yield f"{rest} = number - {macro};"
-        for variable, slot, _ in reversed(varying[1:]):
-            count = len(slot.type.values)
+        for variable, count in reversed(varying[1:]):
             yield f"{variable} = {rest} % {count};"
             yield f"{rest} /= {count};"
         for variable, slot, type_ in slots:
@@ -179,8 +178,6 @@ def _from_index(variable: str, slot: Parameter, type_: Type) -> Iterator[str]:
 
 def facts(actions: ActionMap, names: Names) -> Mapping[str, object]:
     """The action map for programs: every ground action with its number, its behaviour and what its answers mean."""
-    from golc.nqc.actionmap import results
-
     return {
         "messages": {
             name.replace(" ", "_"): {"first": messages.start, "last": messages.stop - 1}

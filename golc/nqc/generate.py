@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 
-from golc.diagnostics import Code, Findings
+from golc.diagnostics import Code, Findings, Source, Span
 from golc.nqc.actionmap import ActionMap
 from golc.nqc.behaviours import Wanted, check_behaviours, check_reports, check_timer, lacking
 from golc.nqc.busy import check_rests
@@ -39,8 +39,8 @@ def generate(
 ) -> Generated | None:
     """Write the program of a brick into a folder; None if its files do not fit, which the findings say.
 
-    ``actions`` is a map for which ``number_device`` has found nothing wrong. Raises UserError where a file cannot be read
-    or written.
+    ``actions`` is a map for which ``number_device`` has found nothing wrong. Raises UserError where a file cannot be
+    read or written.
     """
     stem = f"{theory.name}-{actions.device.name}"
     own = user_file(actions.device)
@@ -64,9 +64,23 @@ def generate(
     texts = {path: program.text(path.name, files, include), folder / CONTROL: control(), **texts}
     texts[folder / f"{stem}.json"] = _json(theory, actions)
     written = tuple(write(file, text) for file, text in texts.items())
+    _say_kept(written, findings)
     removed = () if stubs or not remove(fresh) else (fresh,)
     folders = (folder,) if own is None else (folder, own.parent)
     return Generated(actions, path, folders, written, removed, tuple(stubs), user, program)
+
+
+def _say_kept(written: tuple[Written, ...], findings: Findings) -> None:
+    for file in written:
+        if file.kept is not None:
+            source = Source(str(file.kept), file.kept.read_bytes().decode("utf-8", "replace"))
+            first = source.line(1)
+            findings.warning(
+                Code.NQC_EDITED,
+                f"`{file.kept.name}` has been edited and is left as it is",
+                Span(source, 0, len(first)),
+                help=f"what golc would have written is in `{file.path.name}`; to get it, remove your file",
+            )
 
 
 def _stub_files(folder: Path, stem: str) -> tuple[list[Path], Path]:
@@ -86,7 +100,7 @@ def _check(program: Program, actions: ActionMap, user: NqcSource, findings: Find
     if program.sampled:
         findings.warning(
             Code.NQC_SAMPLED,
-            "`exogAction` holds one event at a time: of two that come quickly one after the other the first may be lost",
+            "`exogAction` holds one event at a time: the first of two that come quickly may be lost",
             actions.device.span,
             help="report with `golc_report(EXOG_…);` instead, which loses none",
         )

@@ -60,7 +60,7 @@ class Program:
         self.device: Device = actions.device
         self.counters: list[Counter] = counters(actions)
         self._theory = theory
-        self._actions = actions
+        self.actions = actions
         self._user = user
         self._tones = tones
         self._names = Names(actions)
@@ -88,12 +88,12 @@ class Program:
 
     @property
     def macros(self) -> list[str]:
-        return [number.macro for number in numbers(self._actions, self._names)]
+        return [number.macro for number in numbers(self.actions, self._names)]
 
     @property
     def started(self) -> list[str]:
         """The tasks that an action starts, directly or through a behaviour: what an abort has to stop."""
-        behaviours = wanted(self._actions)
+        behaviours = wanted(self.actions)
         bound = [behaviour.name for behaviour in behaviours if behaviour.kind is ByStart]
         _, further = reach([behaviour.name for behaviour in behaviours], self._user)
         return [*bound, *sorted(further - set(bound))]
@@ -108,12 +108,12 @@ class Program:
             for index, token in enumerate(body)
             if index and body[index - 1].text == "start"
         }
-        bound = {behaviour.name for behaviour in wanted(self._actions)}
+        bound = {behaviour.name for behaviour in wanted(self.actions)}
         return [task.name for task in self._user.of(Kind.TASK) if task.name not in begun | bound | {"main"}]
 
     def text(self, name: str, files: Sequence[str], includes: str) -> str:
         """The program; ``files`` are the NQC files to include, ``includes`` the option that finds what they include."""
-        wire = self._actions.wire
+        wire = self.actions.wire
         ranges = wire.ranges()
         return _render(
             "program.nqc.j2",
@@ -123,14 +123,14 @@ class Program:
             domain=self._theory.name,
             origin=self._origin,
             includes=includes,
-            numbers=numbers(self._actions, self._names),
+            numbers=numbers(self.actions, self._names),
             wire=wire,
             action_digit=_digit(wire.action_digits),
             lowest=min(ranges["action numbers"].start, wire.abort),
             highest=max(ranges["action numbers"].stop - 1, wire.request),
             timer=TIMER,
             polled=bool(self.counters),
-            queue=queue_of(self._actions),
+            queue=queue_of(self.actions),
             arguments=[] if self.own_hooks else self._dispatch.arguments,
             declared=self._user.variables,
             counters=self.counted,

@@ -1,0 +1,67 @@
+"""Sending a compiled program to the brick, which the real nqc does."""
+
+from __future__ import annotations
+
+import subprocess
+from collections.abc import Callable
+from pathlib import Path
+
+from golc.diagnostics import DeviceError
+from golc.nqc.toolchain import Target, find_nqc
+
+SECONDS = 300
+"""Six thousand bytes take about a hundred seconds in the air."""
+
+USB = "usb:"
+
+ADVICE = {
+    255: ("the port {port} cannot be opened", "is the tower plugged in, and may you use it (group `dialout`)?"),
+    254: ("nothing comes back from {port}", "is there an infra-red tower on this port, and is it connected firmly?"),
+    253: ("no brick answers", "is the brick switched on, in sight of the tower, and has it firmware?"),
+}
+"""What nqc's exit codes mean, and what to do about them."""
+
+
+def download(image: Path, target: Target, port: str, slot: int | None, heard: Callable[[str], None]) -> None:
+    """Send a program to the brick, into a slot (1 to 5) or the one that is selected there.
+
+    ``heard`` gets nqc's progress as it comes. Raises DeviceError if nqc is missing or the brick does not take it.
+    """
+    command = [find_nqc(), f"-T{target.nqc}", f"-S{nqc_port(port)}"]
+    command += [] if slot is None else ["-pgm", str(slot)]
+    command += ["-b", "-d", str(image)]
+    try:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
+    except OSError as error:
+        raise DeviceError(f"nqc cannot be run: {error.strerror or error}") from error
+    with process:
+        said = _listen(process, heard)
+        try:
+            code = process.wait(SECONDS)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            raise DeviceError(f"nqc has not ended within {SECONDS} s") from None
+    if code != 0:
+        message, help_ = ADVICE.get(
+            code, ("nqc could not send the program: {said}", "try once more, closer to the brick")
+        )
+        raise DeviceError(message.format(port=port, said=said.strip() or f"exit code {code}"), help=help_)
+
+
+def _listen(process: subprocess.Popen[bytes], heard: Callable[[str], None]) -> str:
+    assert process.stderr is not None
+    said = ""
+    while chunk := process.stderr.read(1):  # it writes a dot for each block, without a line end
+        text = chunk.decode("latin-1")
+        said += text
+        heard(text)
+    return said
+
+
+def nqc_port(port: str) -> str:
+    """A port of golc in nqc's words: a path as it is, ``usb:`` and a path likewise."""
+    if "://" in port:
+        raise DeviceError(
+            f"nqc cannot use the port {port}", help="give the path of a tty, or usb:/dev/usb/legousbtower0"
+        )
+    return port
