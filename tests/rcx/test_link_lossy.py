@@ -118,7 +118,7 @@ KINDS = st.sampled_from(["lost", "cut", "garbled", "noisy"])
 DAMAGES = st.dictionaries(st.integers(1, 40), st.tuples(KINDS, st.integers(3, 300)), max_size=4)
 STEPS = st.lists(st.sampled_from(["poll", "event"]) | st.integers(0, 300), min_size=1, max_size=8)
 # More than four damages in a row would be a silent brick; every action gets the time it may need.
-PATIENT = Timing(sends=6)
+PATIENT = Timing(sends=6, part_sends=6)
 TIMEOUT = 300.0
 REUSED = settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=150)
 

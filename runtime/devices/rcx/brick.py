@@ -42,14 +42,15 @@ CHECK_HELP = (
 
 @dataclass
 class _Action:
-    """An action under way, and how often in a row the brick has not answered."""
+    """An action under way: how often in a row the brick has not answered, and how often it was begun."""
 
     number: int
     parts: list[int]
     timeout: float
-    deadline: float
     repeat: bool
     silences: int = 0
+    beginnings: int = 0
+    deadline: float = 0.0
 
 
 class Brick:
@@ -94,19 +95,18 @@ class Brick:
     def perform(self, number: int, timeout: float = DEFAULT_TIMEOUT, repeat: bool = True) -> int:
         """Have the brick do an action; the sensing value it answers with, 0 for an action that senses nothing.
 
-        ``timeout`` is in simulated seconds. With ``repeat=False`` the action is never sent a second time once the brick
-        may have begun it: a lost message is then an error. Raises SilentBrickError, OverdueError, PanicError (after an
-        abort), NonsenseError, PortGoneError, InterruptedLinkError, and ParameterError for a number that does not
-        fit the wire.
+        ``timeout``, in simulated seconds, is for the action itself, from when the brick can first have begun it; it has
+        to ask for more time every 3.5 s (``Timing``). With ``repeat=False`` the action is never sent a second time once
+        the brick may have begun it: a lost message is then an error. Raises SilentBrickError, OverdueError, PanicError
+        (after an abort), NonsenseError, PortGoneError, InterruptedLinkError, and ParameterError for a number that does
+        not fit the wire.
         """
         parts = self._numbers.actions.split(number)
         with self._abort_on_panic():
             self._exchange.catch_up()
-            action = _Action(number, parts, timeout, self._tower.now() + timeout, repeat)
-            self._mark_off(action)
+            action = _Action(number, parts, timeout, repeat)
             while (value := self._attempt(action)) is None:
                 self.statistics.repeated += 1
-                self._mark_off(action)
         self.statistics.actions += 1
         self._silent_polls = 0
         return value
@@ -152,6 +152,10 @@ class Brick:
 
     def _attempt(self, action: _Action) -> int | None:
         """Send the action from its first digit; None if that has to be done again."""
+        self._mark_off(action)
+        action.beginnings += 1
+        if action.beginnings > self._timing.sends:
+            raise self._silent(action, f"begun {self._timing.sends} times, and no answer was complete")
         answer = None
         for place in range(len(action.parts)):
             answer = self._deliver(place, action)
@@ -164,9 +168,9 @@ class Brick:
         collected = self._exchange.collect(answer, self._numbers.values)
         if collected is not None and collected.sure:
             return collected.number
+        self._exchange.stale = True
         if not action.repeat:
             raise SilentBrickError(f"the sensing value of action {action.number} has arrived with gaps", CHECK_HELP)
-        self._note_silence(action)
         return None
 
     def _deliver(self, place: int, action: _Action) -> int | None:
@@ -174,9 +178,10 @@ class Brick:
         part, last = action.parts[place], place == len(action.parts) - 1
         expected = self._replies if last else frozenset((self._numbers.proceed,))
         while True:
-            answer = self._exchange.ask(part, expected, self._patience(action))
+            action.deadline = self._tower.now() + action.timeout
+            answer = self._exchange.ask(part, expected, self._timing.answer)
             if answer is None:
-                self._note_silence(action)
+                self._note_silence(action, self._timing.part_sends if place else self._timing.sends)
                 if last and not action.repeat:
                     raise self._silent(action, "whether it was done is not known")
                 if not self._remembers and len(action.parts) > 1:
@@ -215,7 +220,8 @@ class Brick:
         """Grant the brick the time it asks for; its next answer, or None if that was lost."""
         self.statistics.more_time += 1
         for _ in range(self._exchange.asks):
-            answer = self._exchange.ask(self._numbers.proceed, self._replies, self._patience(action))
+            left = max(self._timing.least, action.deadline - self._tower.now())
+            answer = self._exchange.ask(self._numbers.proceed, self._replies, min(self._timing.answer, left))
             done = answer is not None and answer != self._numbers.more_time
             if not done and self._tower.now() >= action.deadline:
                 raise OverdueError(
@@ -225,22 +231,18 @@ class Brick:
             if answer is not None:
                 action.silences = 0
                 return answer
-            self._note_silence(action)
+            self._note_silence(action, self._timing.part_sends)
             self.statistics.resent += 1
         if not action.repeat:
             raise self._silent(action, "it was begun, and whether it was done is not known")
         return None
 
-    def _patience(self, action: _Action) -> float:
-        return min(self._timing.answer, max(self._timing.least, action.deadline - self._tower.now()))
-
-    def _note_silence(self, action: _Action) -> None:
+    def _note_silence(self, action: _Action, most: int) -> None:
         """Once more without an answer: SilentBrickError if that was the last time."""
         action.silences += 1
         self._exchange.stale = True
-        left = action.deadline - self._tower.now()
-        if action.silences >= self._timing.sends or left < self._timing.least:
-            raise self._silent(action, f"sent {action.silences} times within {action.timeout - left:.1f} s")
+        if action.silences >= most:
+            raise self._silent(action, f"sent {action.silences} times, {self._timing.answer:g} s apart")
 
     def _silent(self, action: _Action, remark: str) -> LinkError:
         if self._exchange.nonsense:

@@ -70,7 +70,7 @@ class Exchange:
     @property
     def asks(self) -> int:
         """Number of times that *continue* is sent before what it should bring counts as lost."""
-        return self._timing.sends if self._remembers else FORGETFUL_ASKS
+        return self._timing.part_sends if self._remembers else FORGETFUL_ASKS
 
     def send(self, number: int) -> float:
         """Send ``number``; the simulated time at which its last bit is out."""
