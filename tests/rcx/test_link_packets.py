@@ -1,6 +1,7 @@
 """Frames: bytes from packets, and packets from any stream of bytes."""
 
 import re
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -117,3 +118,10 @@ def test_what_is_kept_does_not_grow(data: bytes) -> None:
     decoder = Decoder()
     found = len(decoder.feed(data))
     assert decoder.noise >= len(data) - 11 * found - 13
+
+
+def test_the_frames_in_the_manual_are_right() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "wire.md").read_text()
+    shown = re.findall(r"^(?:host|brick) +(\d+) +((?:[0-9a-f]{2} ){8}[0-9a-f]{2})\b", text, re.MULTILINE)
+    assert len(shown) == 16
+    assert all(encode_message(int(number)) == bytes.fromhex(frame) for number, frame in shown)

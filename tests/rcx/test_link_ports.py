@@ -209,6 +209,13 @@ def test_a_device_without_a_word_and_one_that_babbles() -> None:
         brick.perform(4)
 
 
+def test_a_port_that_cannot_be_waited_on_is_looked_at() -> None:
+    with Brick(open_tower("loop://", FAST)) as brick:
+        assert brick.poll() is None
+        assert brick.tower.statistics.echoes == 2
+        assert brick.tower.statistics.heard == 0
+
+
 def test_a_closed_port_is_gone() -> None:
     tower = open_tower("usb:/dev/zero")
     tower.close()
