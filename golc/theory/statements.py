@@ -1,4 +1,4 @@
-"""Typed programs: what the elaborator makes of blocks. Variables are as in ``terms``: each binder adds the next level."""
+"""Typed programs: what the elaborator makes of blocks. As in ``terms`` each binder adds the next level."""
 
 from __future__ import annotations
 

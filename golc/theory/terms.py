@@ -1,8 +1,8 @@
 """Typed terms: what the elaborator makes of expressions.
 
-A formula is a term of type ``bool``. Names are resolved: constants are literals, variables know their *level*, the number
-of variables that are in scope around their binder (the parameters of an action or procedure are levels 0, 1, …). Terms are
-compared by structure; spans and the names of variables take no part.
+A formula is a term of type ``bool``. Names are resolved: constants are literals, variables know their *level*, the
+number of variables that are in scope around their binder (the parameters of an action or procedure are levels 0, 1, …).
+Terms are compared by structure; spans and the names of variables take no part.
 """
 
 from __future__ import annotations

@@ -64,8 +64,8 @@ class Definition(Declared):
 class Effect:
     """One ``causes`` clause. Binders take the levels after the action's parameters.
 
-    For each binding that satisfies ``where`` and ``condition``, both evaluated before the action, the ground fluent gets
-    the value of ``value``, evaluated before the action too.
+    For each binding that satisfies ``where`` and ``condition``, both evaluated before the action, the ground fluent
+    gets the value of ``value``, evaluated before the action too.
     """
 
     binders: tuple[Binder, ...]
@@ -81,8 +81,9 @@ class Effect:
 class Action(Declared):
     """A primitive or an exogenous action.
 
-    ``preconditions`` are the ``poss`` lines, all of which must hold, in order. ``senses`` are evaluated in the situation
-    after the action's own effects. ``sources`` names the device kinds that may report an exogenous action (empty: any).
+    ``preconditions`` are the ``poss`` lines, all of which must hold, in order. ``senses`` are evaluated in the
+    situation after the action's own effects. ``sources`` names the device kinds that may report an exogenous action
+    (empty: any).
     Parameters of primitive actions have finite types or ``int``.
     """
 
@@ -165,8 +166,8 @@ class Setting:
 class Device:
     """A ``device`` block: ``kind`` is ``rcx``, ``operator``, ``host`` or ``self``.
 
-    ``name`` distinguishes several of one kind (otherwise it is the kind); ``file`` is the path as written; ``folder`` the
-    directory of the file that declares the device, against which ``file`` is resolved.
+    ``name`` distinguishes several of one kind (otherwise it is the kind); ``file`` is the path as written; ``folder``
+    the directory of the file that declares the device, against which ``file`` is resolved.
     """
 
     kind: str

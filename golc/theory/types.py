@@ -1,7 +1,7 @@
 """The types of golc's terms, and the Python values that stand for theirs.
 
-An integer is an ``int``, a symbol its name as a ``str``, a truth value a ``bool``, ``none`` is ``None``. (A ``real`` is a
-``Fraction``, a set a ``frozenset``, a list a ``tuple``.) Types are compared by structure; a name is only for messages.
+An integer is an ``int``, a symbol its name as a ``str``, a truth value a ``bool``, ``none`` is ``None``. (A ``real`` is
+a ``Fraction``, a set a ``frozenset``, a list a ``tuple``.) Types are compared by structure; names are for messages.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ class Type:
 
     @property
     def kinds(self) -> frozenset[str]:
-        """What sorts of value it has: ``int``, ``bool``, ``real``, ``string``, ``none``, ``set``, ``list``, or ``symbol:E``
-        for the enumeration E. Terms whose kinds are disjoint can never be equal: comparing them is a type error."""
+        """What sorts of value it has: ``int``, ``bool``, ``real``, ``string``, ``none``, ``set``, ``list``, or
+        ``symbol:E`` for the enumeration E. Terms whose kinds are disjoint can never be equal: comparing them is a type error."""
         raise NotImplementedError
 
 

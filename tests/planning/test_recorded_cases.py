@@ -29,7 +29,8 @@ def plans(path: Path, procedure: str, all_plans: bool = False) -> list[list[str]
 def run(path: Path, procedure: str) -> tuple[str, list[str]]:
     """What the online loop does if no exogenous action ever happens: how it ends, and the actions."""
     ready = executable(load(path), procedure)
-    node, state, actions = ready.node, ready.dynamics.initial(), []
+    node, state = ready.node, ready.dynamics.initial()
+    actions: list[str] = []
     while not ready.machine.final(node, state):
         transition = ready.machine.decide(node, state)
         if transition is None:
