@@ -217,10 +217,8 @@ def empty_brackets(failure: Failure) -> Diagnostic | None:
     return failure.finding(Code.SYNTAX, "empty parentheses are left out", span, "write the name alone")
 
 
-HINTS: tuple[Hint, ...] = (
-    empty_brackets,
-    wrong_bracket,
-    unclosed_bracket,
+BRACKETS: tuple[Hint, ...] = (empty_brackets, wrong_bracket, unclosed_bracket)
+LINES: tuple[Hint, ...] = (
     missing_block,
     block_on_the_line,
     missing_colon,

@@ -112,6 +112,7 @@ def too_deep(findings: Findings, source: Source, place: int) -> None:
 
 
 def reserved_name(findings: Findings, name: ast.Ident) -> None:
+    """A word of the language stands where a name is declared."""
     findings.error(
         Code.RESERVED,
         f"`{name.text}` is a word of the language and cannot be a name",

@@ -22,16 +22,19 @@ LAYOUT = frozenset({"_NL", "_INDENT", "_DEDENT"})
 class Failure:
     """The state of the parser before the first token that does not fit, or the first character that begins none.
 
-    ``tokens`` were read; ``bad`` came next, None for a character; ``place`` is its offset in the part; ``accepts`` are
-    the terminals that could have come, ``chosen_from`` those that could have come instead of the last token read.
+    ``start`` is the symbol that the part was parsed from; ``tokens`` were read; ``bad`` came next, None for a
+    character; ``place`` is its offset in the part; ``accepts`` are the terminals that could have come, ``chosen_from``
+    those that could have come instead of the last token read; ``stack`` is the parser's.
     """
 
     part: Span
+    start: str
     tokens: tuple[Token, ...]
     bad: Token | None
     place: int
     accepts: frozenset[str]
     chosen_from: frozenset[str]
+    stack: tuple[int, ...]
 
     @property
     def kind(self) -> str:
@@ -152,7 +155,8 @@ def failure(part: Span, start: str, text: str) -> Failure | None:
     except UnexpectedCharacters as error:
         bad, place = None, error.pos_in_stream
     # The parser reduces before it finds that a token does not fit: what it accepts is asked of the state before that.
-    return Failure(part, tuple(tokens), bad, place, _accepts(interactive, current), _accepts(interactive, before))
+    accepts, chosen_from = _accepts(interactive, current), _accepts(interactive, before)
+    return Failure(part, start, tuple(tokens), bad, place, accepts, chosen_from, tuple(current))
 
 
 def _as_word(token: Token) -> Token:

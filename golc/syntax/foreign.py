@@ -188,4 +188,5 @@ def character(failure: Failure) -> Diagnostic | None:
     return failure.finding(Code.SYNTAX, f"the character {shown} ({name}) has no meaning here", help="remove it")
 
 
-HINTS: tuple[Hint, ...] = (full_stop, foreign_sign, foreign_word, braces, comment, character)
+NOTATION: tuple[Hint, ...] = (full_stop, foreign_sign, foreign_word)
+CHARACTERS: tuple[Hint, ...] = (comment, character)

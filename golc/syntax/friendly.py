@@ -9,27 +9,26 @@ from __future__ import annotations
 from lark import UnexpectedInput
 
 from golc.diagnostics import Code, Diagnostic, Span
-from golc.syntax import blocks, foreign, keywords, phrases
+from golc.syntax import blocks, foreign, gaps, keywords, quantifiers, signs
 from golc.syntax.failure import Failure, Hint, failure
 from golc.syntax.layout import LayoutError
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
-    phrases.missing_dot,
-    foreign.full_stop,
-    foreign.foreign_sign,
-    foreign.foreign_word,
-    *blocks.HINTS[:3],
+    quantifiers.missing_dot,
+    *foreign.NOTATION,
+    *blocks.BRACKETS,
     foreign.braces,
-    *blocks.HINTS[3:],
-    foreign.comment,
-    foreign.character,
-    phrases.chained,
-    phrases.wrong_sign,
-    phrases.late_not,
+    *blocks.LINES,
+    *foreign.CHARACTERS,
+    quantifiers.missing_quantifier,
+    quantifiers.chained,
+    signs.wrong_sign,
+    signs.late_not,
     keywords.misspelt,
     keywords.reserved,
-    *phrases.HINTS,
+    *signs.HINTS,
+    *gaps.HINTS,
 )
 
 

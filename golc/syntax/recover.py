@@ -10,6 +10,7 @@ from golc.syntax import tree as ast
 from golc.syntax.keywords import closest
 from golc.syntax.layout import split
 from golc.syntax.pieces import Piece, parse_piece
+from golc.syntax.words import DECLARATIONS
 
 _CONTENT = re.compile(r"^[ \t]*([A-Za-z]\w*|[^\s#])", re.MULTILINE)
 
@@ -22,7 +23,8 @@ def recover(source: Source, findings: Findings) -> ast.File | None:
         _nothing(source, findings)
         return None
     _check_domain(pieces, findings)
-    _merge(read, findings)
+    # A name alone where the file begins is a domain line without its word, and that has been said.
+    _merge(read[1:] if _only_name(pieces[0]) else read, findings)
     nodes = [piece.node for piece in pieces if piece.node is not None]
     domain = next((node for node in nodes if isinstance(node, ast.Ident)), None)
     declarations = tuple(node for node in nodes if not isinstance(node, ast.Ident))
@@ -60,7 +62,8 @@ def _check_domain(pieces: list[Piece], findings: Findings) -> None:
     first = pieces[0]
     if not headers:
         if closest(_first_word(first.part), ["domain"]) is None:
-            help = "begin the file with a line such as `domain delivery`"
+            example = _only_name(first) or "delivery"
+            help = f"begin the file with a line such as `domain {example}`"
             findings.error(Code.DOMAIN, "the domain line is missing", _word_span(first), help=help)
         return
     if headers[0] is not first:
@@ -74,6 +77,12 @@ def _check_domain(pieces: list[Piece], findings: Findings) -> None:
             help="a file describes one domain: remove the line, or `import` another file",
             labels=(Label(_word_span(headers[0]), "the first one"),),
         )
+
+
+def _only_name(piece: Piece) -> str | None:
+    """The name that is all of a piece: a domain line without its word."""
+    text = re.sub("#.*", "", piece.part.text).strip()
+    return text if re.fullmatch("[A-Za-z][A-Za-z0-9_]*", text) and text not in DECLARATIONS else None
 
 
 def _word_span(piece: Piece) -> Span:

@@ -1,20 +1,16 @@
-"""What each rule of the grammar builds from its parts."""
+"""What each rule of declarations and programs builds from its parts."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from decimal import Decimal
-from typing import TYPE_CHECKING, Any, TypeAlias
-
-from lark import Token
+from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import Span
+from golc.syntax import expression_rules
 from golc.syntax import tree as ast
+from golc.syntax.expression_rules import Rule, as_tuple, sequence_of
 
 if TYPE_CHECKING:
     from golc.syntax.build import Builder
-
-Rule: TypeAlias = Callable[["Builder", Span, list[Any]], Any]
 
 
 def _tuple(value: tuple[Any, ...] | None) -> tuple[Any, ...]:
@@ -23,10 +19,6 @@ def _tuple(value: tuple[Any, ...] | None) -> tuple[Any, ...]:
 
 def _first(kind: Any, children: list[Any]) -> Any:
     return next((child for child in children if isinstance(child, kind)), None)
-
-
-def _all(b: Builder, span: Span, children: list[Any]) -> tuple[Any, ...]:
-    return tuple(children)
 
 
 def _file(b: Builder, span: Span, children: list[Any]) -> ast.File:
@@ -71,40 +63,6 @@ def _with_parameters(kind: Any) -> Rule:
 def _params(b: Builder, span: Span, children: list[Any]) -> tuple[ast.Parameter, ...]:
     b.declare_parts(tuple(children))
     return tuple(children)
-
-
-def _binders(b: Builder, span: Span, children: list[Any]) -> tuple[ast.Binder, ...]:
-    b.declare_parts(tuple(children))
-    return tuple(children)
-
-
-def _binding_in(b: Builder, span: Span, children: list[Any]) -> ast.Binder:
-    return ast.Binder(children[0], collection=children[1], span=span)
-
-
-def _binding_range(b: Builder, span: Span, children: list[Any]) -> ast.Binder:
-    """``x in 1..6`` says what ``x: 1..6`` says."""
-    name, low, high = children
-    return ast.Binder(name, ast.IntervalType(low, high, span=low.span.to(span)), span=span)
-
-
-def _union(b: Builder, span: Span, children: list[Any]) -> ast.UnionType:
-    return ast.UnionType(tuple(child for child in children if not isinstance(child, Token)), span=span)
-
-
-def _collection_type(kind: Any) -> Rule:
-    return lambda b, span, children: ast.CollectionType(kind, children[0], span=span)
-
-
-def _enum(b: Builder, span: Span, children: list[Any]) -> ast.EnumType:
-    b.declare(*(child for child in children if isinstance(child, ast.Ident)))
-    return ast.EnumType(tuple(children), span=span)
-
-
-def _integer(b: Builder, span: Span, children: list[Any]) -> ast.Number:
-    minus, digits = children
-    value = b.integer(digits)
-    return ast.Number(-value if minus else value, span=span)
 
 
 def _action(b: Builder, span: Span, children: list[Any]) -> ast.Action:
@@ -199,10 +157,6 @@ def _if(b: Builder, span: Span, children: list[Any]) -> ast.If:
     return ast.If(((condition, body), *branches), otherwise, span=span)
 
 
-def _branches(kind: Any) -> Rule:
-    return lambda b, span, children: kind(tuple(children), span=span)
-
-
 def _on(b: Builder, span: Span, children: list[Any]) -> ast.On:
     return ast.On((), *children, span=span)
 
@@ -225,47 +179,6 @@ def _said(kind: Any) -> Rule:
     return lambda b, span, children: kind(b.message(children[0]), span=span)
 
 
-def _number(b: Builder, span: Span, children: list[Any]) -> ast.Number:
-    return ast.Number(b.integer(children[0]), span=span)
-
-
-def _real(b: Builder, span: Span, children: list[Any]) -> ast.Real:
-    return ast.Real(Decimal(children[0]), span=span)
-
-
-def _truth(value: bool) -> Rule:
-    return lambda b, span, children: ast.Truth(value, span=span)
-
-
-def _apply(b: Builder, span: Span, children: list[Any]) -> ast.Apply:
-    return ast.Apply(children[0], tuple(children[1:]), span=span)
-
-
-def _infix(b: Builder, span: Span, children: list[Any]) -> ast.Binary:
-    left, *words, right = children
-    operator: Any = " ".join(words)
-    return ast.Binary(operator, left, right, span=span)
-
-
-def _worded(kind: Any) -> Rule:
-    """A word or sign that tells which of several functions it is, and arguments."""
-    return lambda b, span, children: kind(str(children[0]), *children[1:], span=span)
-
-
-def _extremum(b: Builder, span: Span, children: list[Any]) -> ast.Extremum:
-    kind: Any = str(children[0])
-    return ast.Extremum(kind, tuple(children[1:]), span=span)
-
-
-def _comprehension(kind: Any) -> Rule:
-    return lambda b, span, children: ast.Comprehension(kind, *children, span=span)
-
-
-def _entry(b: Builder, span: Span, children: list[Any]) -> ast.TableEntry:
-    key, value = children
-    return ast.TableEntry(key if isinstance(key, tuple) else (key,), value, span=span)
-
-
 _NESTING = """
 block binary not_in unary if_else quantifier apply index extremum epistemic one_of set_of list_of table
 set_literal list_literal set_comprehension list_comprehension
@@ -275,18 +188,13 @@ NESTING = frozenset(_NESTING.split())
 """The rules that nest: each is a level."""
 
 SIMPLE: dict[str, Any] = {
+    **expression_rules.NODES,
     "initially": ast.Initially,
     "poss": ast.Precondition,
     "senses": ast.Senses,
     "cost": ast.Cost,
     "after": ast.After,
     "param": ast.Parameter,
-    "binding_of": ast.Binder,
-    "interval": ast.IntervalType,
-    "type_name": ast.TypeName,
-    "optional": ast.OptionalType,
-    "one_of": ast.OneOf,
-    "unknown": ast.Unknown,
     "given": ast.Given,
     "run": ast.Run,
     "until": ast.Until,
@@ -306,14 +214,11 @@ SIMPLE: dict[str, Any] = {
     "wait_until": ast.WaitUntil,
     "wait_time": ast.WaitTime,
     "within": ast.Within,
-    "none": ast.Nothing,
-    "name": ast.Apply,
-    "index": ast.Index,
-    "if_else": ast.IfElse,
 }
 """The rules whose parts are the fields of a node, in order."""
 
 RULES: dict[str, Rule] = {
+    **expression_rules.RULES,
     "start": _file,
     "header": _header,
     "declaration": _only,
@@ -329,31 +234,21 @@ RULES: dict[str, Rule] = {
     "prune": _named(ast.Prune),
     "prune_after": _named(ast.PruneAfter),
     "params": _params,
-    "binders": _binders,
-    "binding_in": _binding_in,
-    "binding_range": _binding_range,
-    "set_of": _collection_type("set"),
-    "list_of": _collection_type("list"),
-    "union": _union,
-    "enum": _enum,
-    "integer": _integer,
-    "true": _truth(True),
-    "false": _truth(False),
     "action": _action,
     "exog": _exog,
     "expected": _word("expected"),
-    "sources": _all,
+    "sources": as_tuple,
     "causes": _causes,
-    "for_all": _all,
+    "for_all": as_tuple,
     "axiom": _axiom,
-    "names": _all,
+    "names": as_tuple,
     "otherwise": _word("otherwise"),
     "pattern": _pattern,
     "scenario": _scenario,
     "event_after": _event("after"),
     "event_when": _event("when"),
     "event_waiting": _event("waiting"),
-    "events": _all,
+    "events": as_tuple,
     "expect_at_least": _expect_count("at least"),
     "expect_at_most": _expect_count("at most"),
     "expect_exactly": _expect_count("exactly"),
@@ -371,11 +266,11 @@ RULES: dict[str, Rule] = {
     "call": _call,
     "if_": _if,
     "let": _named(ast.Let),
-    "elif_": _all,
-    "choose": _branches(ast.Choose),
-    "together": _branches(ast.Together),
-    "prefer": _branches(ast.Prefer),
-    "interrupts": _branches(ast.Interrupts),
+    "elif_": as_tuple,
+    "choose": sequence_of(ast.Choose),
+    "together": sequence_of(ast.Together),
+    "prefer": sequence_of(ast.Prefer),
+    "interrupts": sequence_of(ast.Interrupts),
     "on": _on,
     "search": _search,
     "first": _word("first"),
@@ -385,22 +280,5 @@ RULES: dict[str, Rule] = {
     "time_limit": _tagged("within"),
     "say": _said(ast.Say),
     "abort": _said(ast.Abort),
-    "number": _number,
-    "real": _real,
-    "message": lambda b, span, children: b.message(children[0]),
-    "apply": _apply,
-    "binary": _infix,
-    "not_in": _infix,
-    "unary": _worded(ast.Unary),
-    "quantifier": _worded(ast.Quantifier),
-    "extremum": _extremum,
-    "epistemic": _worded(ast.Epistemic),
-    "set_literal": _branches(ast.SetLiteral),
-    "list_literal": _branches(ast.ListLiteral),
-    "set_comprehension": _comprehension("set"),
-    "list_comprehension": _comprehension("list"),
-    "table": _branches(ast.Table),
-    "entry": _entry,
-    "key": _all,
 }
 """The other rules."""

@@ -28,8 +28,6 @@ def word_of(terminal: str) -> str | None:
     title = TITLES.get(terminal)
     if title is not None:
         return title.strip("`") if title.startswith("`") else None
-    if terminal.startswith("_"):
-        return None
     value = parser().get_terminal(terminal).pattern.value
     return value if value.isalpha() else None
 

@@ -1,0 +1,95 @@
+"""Hints by trial: the one word or sign whose insertion or removal lets the line be read."""
+
+from __future__ import annotations
+
+from copy import copy
+from typing import Any
+
+from lark import Token, UnexpectedInput
+from lark.lexer import LexerThread
+from lark.parsers.lalr_parser_state import ParserState
+
+from golc.diagnostics import Code, Diagnostic
+from golc.syntax.failure import LAYOUT, Failure
+from golc.syntax.layout import CLOSING, OPENING, LayoutError
+from golc.syntax.parser import parser
+from golc.syntax.terminals import TITLES, title, titles, word_of
+
+SIGNS = ("COLON", "EQ", "ASSIGN", "COMMA", "RPAR", "RSQB", "RBRACE", "LPAR", "LBRACE", "DOT", "RANGE")
+"""The signs that people forget, the likeliest first."""
+
+NAMED = ("NAME", "INT", "STRING")
+"""What else may be missing, if no sign and no word helps."""
+
+
+def repaired(failure: Failure) -> Diagnostic | None:
+    """Something forgotten before the bad token, or the bad token one too many."""
+    if failure.bad is None:
+        return None
+    behind = failure.rest[len(failure.bad) :]
+    twice = _twice(failure, behind)
+    if twice is not None:
+        return failure.finding(Code.SYNTAX, f"`{twice}` is written twice", failure.span(twice), "remove one")
+    forgotten = _forgotten(failure)
+    if forgotten is not None:
+        end = failure.kind in LAYOUT or failure.kind == "$END"
+        where = "at the end of the line" if end else f"before `{failure.bad}`"
+        place = failure.at(failure.place, failure.place) if failure.begins_line() else failure.gap()
+        return failure.finding(Code.MISSING, f"{forgotten} is missing {where}", place, f"write {forgotten}")
+    if failure.kind not in LAYOUT | {"$END"} and _goes_on(failure, None, behind):
+        return failure.finding(Code.SYNTAX, f"`{failure.bad}` is too much here", help="remove it")
+    return None
+
+
+def _twice(failure: Failure, behind: str) -> Token | None:
+    """A word that repeats the one before it: the last read, or the bad one if the line can be read without it."""
+    line, bad = [*failure.line, failure.bad], failure.bad
+    words = [str(token) for token in line]
+    if len(words) > 2 and words[-2] == words[-3] and words[-2].isidentifier():
+        return line[-2]
+    repeats = len(words) > 1 and words[-1] == words[-2] and words[-1].isidentifier()
+    return bad if repeats and _goes_on(failure, None, behind) else None
+
+
+def _forgotten(failure: Failure) -> str | None:
+    """The name of the sign, or the names of the words, with which the line can be read."""
+    rest = "" if failure.kind in LAYOUT | {"$END"} else failure.rest
+    for sign in SIGNS:
+        if sign in failure.accepts and _goes_on(failure, sign, rest):
+            return title(sign)
+    words = sorted(terminal for terminal in failure.accepts if word_of(terminal) is not None)
+    for terminals in (words, NAMED):
+        found = [t for t in terminals if t in failure.accepts and _goes_on(failure, t, rest)]
+        if found:
+            return titles(found) or "a word"
+    return None
+
+
+def _goes_on(failure: Failure, inserted: str | None, rest: str) -> bool:
+    """Whether, after one more terminal or none, the parser can read the rest of a line, with its end if it has one."""
+    interactive = parser().parse_interactive(start=failure.start)
+    # Without callbacks the parser builds no trees, so that it needs no values of what it has read.
+    conf = copy(interactive.parser_state.parse_conf)
+    conf.callbacks = {}
+    frontend: Any = parser().parser
+    thread = LexerThread.from_text(frontend.lexer, rest.strip())
+    state: Any = ParserState(conf, thread, list(failure.stack), [])
+    depth = len(failure.brackets) + _depth(inserted)
+    lex: Any = thread.lex
+    try:
+        if inserted is not None:
+            state.feed_token(Token(inserted, TITLES.get(inserted, "")))
+        for token in lex(state):
+            state.feed_token(token)
+            depth += _depth(token.type)
+        if depth > len(failure.brackets) and inserted in OPENING:
+            return False
+        if depth == 0:
+            state.feed_token(Token("_NL", ""))
+    except (UnexpectedInput, LayoutError):
+        return False
+    return True
+
+
+def _depth(terminal: str | None) -> int:
+    return (terminal in OPENING) - (terminal in CLOSING)
