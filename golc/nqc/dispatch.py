@@ -1,4 +1,4 @@
-"""The cases of ``startBehaviour``: from the number of an action to its behaviour and its arguments."""
+"""From the number of an action to its behaviour and its arguments, as the cases of a switch."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from golc.nqc.actionmap import ActionMap, Entry, results, value_number
 from golc.nqc.behaviours import behaviour_name
-from golc.theory.theory import BasicActionTheory, ByStart, Fixed, Parameter
+from golc.theory.theory import BasicActionTheory, ByCall, ByStart, Fixed, Parameter
 from golc.theory.types import Type, show
 
 
@@ -31,7 +31,7 @@ class Case:
 
 @dataclass(frozen=True)
 class Range:
-    """The numbers ``first..last`` and what is done for them; ``number`` is the variable that has the number."""
+    """The numbers ``first..last`` and what is done for them."""
 
     first: str
     last: str
@@ -105,58 +105,67 @@ def counters(actions: ActionMap) -> list[Counter]:
     return found
 
 
+@dataclass(frozen=True)
 class Dispatch:
-    """The cases and ranges of ``startBehaviour``, and the argument variables that they need."""
+    """What is done for the numbers of some actions, and how many argument variables that needs."""
 
-    def __init__(self, theory: BasicActionTheory, actions: ActionMap, names: Names) -> None:
-        self.cases: list[Case] = []
-        self.ranges: list[Range] = []
-        self._arguments = 0
-        for entry in actions.entries:
-            if entry.behaviour is None:
-                continue
-            name = names.of_entry[entry.first]
-            types = [parameter.type for parameter in theory.actions[entry.action].parameters]
-            if entry.count == 1:
-                self.cases.append(Case(f"NUMBER_{name}", tuple(self._single(entry, types))))
-            else:
-                lines = tuple(self._several(entry, types, f"NUMBER_{name}"))
-                self.ranges.append(Range(f"NUMBER_{name}", f"LAST_{name}", lines))
+    cases: tuple[Case, ...]
+    ranges: tuple[Range, ...]
+    arguments: int
 
-    @property
-    def arguments(self) -> list[str]:
-        """The variables ``golc_arg1…`` that are used."""
-        return [f"golc_arg{place}" for place in range(1, self._arguments + 1)]
 
-    def _single(self, entry: Entry, types: Sequence[Type]) -> Iterator[str]:
-        values = [str(value_number(type_, v)) for type_, v in zip(types, entry.arguments(0), strict=True)]
-        if isinstance(entry.behaviour, ByStart):
-            self._arguments = max(self._arguments, len(values))
-            yield from (f"golc_arg{place} = {value};" for place, value in enumerate(values, start=1))
-            yield f"start {behaviour_name(entry)};"
+def dispatch(
+    theory: BasicActionTheory, actions: ActionMap, names: Names, kind: type[ByCall] | type[ByStart], number: str
+) -> Dispatch:
+    """The dispatch of the actions that call something, or of those that start something.
+
+    ``number`` is the variable that has the number of the action.
+    """
+    cases, ranges, arguments = [], [], 0
+    for entry in actions.entries:
+        if not isinstance(entry.behaviour, kind):
+            continue
+        name = names.of_entry[entry.first]
+        types = [parameter.type for parameter in theory.actions[entry.action].parameters]
+        if entry.count == 1:
+            cases.append(Case(f"NUMBER_{name}", tuple(_single(entry, types))))
         else:
-            yield f"{behaviour_name(entry)}({', '.join(values)});"
+            lines = tuple(_several(entry, types, f"{number} - NUMBER_{name}"))
+            ranges.append(Range(f"NUMBER_{name}", f"LAST_{name}", lines))
+        if entry.count > 1 or kind is ByStart:
+            arguments = max(arguments, len(entry.args))
+    return Dispatch(tuple(cases), tuple(ranges), arguments)
 
-    def _several(self, entry: Entry, types: Sequence[Type], macro: str) -> Iterator[str]:
-        """Take the place in the range apart, the last argument first; the first one that varies keeps what remains."""
-        self._arguments = max(self._arguments, len(entry.args))
-        variables = [f"golc_arg{place}" for place in range(1, len(entry.args) + 1)]
-        slots = list(zip(variables, entry.args, types, strict=True))
-        varying = [(variable, len(slot.type.values)) for variable, slot, _ in slots if isinstance(slot, Parameter)]
-        rest = varying[0][0]
-        yield f"{rest} = number - {macro};"
-        for variable, count in reversed(varying[1:]):
-            yield f"{variable} = {rest} % {count};"
-            yield f"{rest} /= {count};"
-        for variable, slot, type_ in slots:
-            if isinstance(slot, Fixed):
-                yield f"{variable} = {value_number(type_, slot.value)};"
-            else:
-                yield from _from_index(variable, slot, type_)
-        if isinstance(entry.behaviour, ByStart):
-            yield f"start {behaviour_name(entry)};"
+
+def _single(entry: Entry, types: Sequence[Type]) -> Iterator[str]:
+    values = [str(value_number(type_, v)) for type_, v in zip(types, entry.arguments(0), strict=True)]
+    if isinstance(entry.behaviour, ByStart):
+        yield from (f"golc_arg{place} = {value};" for place, value in enumerate(values, start=1))
+    yield _invocation(entry, values)
+
+
+def _invocation(entry: Entry, arguments: Sequence[str]) -> str:
+    if isinstance(entry.behaviour, ByStart):
+        return f"start {behaviour_name(entry)};"
+    return f"{behaviour_name(entry)}({', '.join(arguments)});"
+
+
+def _several(entry: Entry, types: Sequence[Type], index: str) -> Iterator[str]:
+    """Take the place in the range apart, the last argument first; the first one that varies keeps what remains."""
+    variables = [f"golc_arg{place}" for place in range(1, len(entry.args) + 1)]
+    slots = list(zip(variables, entry.args, types, strict=True))
+    varying = [(variable, len(slot.type.values)) for variable, slot, _ in slots if isinstance(slot, Parameter)]
+    rest = varying[0][0]
+    yield f"{rest} = {index};"
+    for variable, count in reversed(varying[1:]):
+        yield f"{variable} = {rest} % {count};"
+        yield f"{rest} /= {count};"
+    for variable, slot, type_ in slots:
+        if isinstance(slot, Fixed):
+            yield f"{variable} = {value_number(type_, slot.value)};"
         else:
-            yield f"{behaviour_name(entry)}({', '.join(variables)});"
+            yield from _from_index(variable, slot, type_)
+    yield _invocation(entry, variables)
 
 
 def _from_index(variable: str, slot: Parameter, type_: Type) -> Iterator[str]:

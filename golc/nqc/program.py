@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 
 from golc.nqc.actionmap import ActionMap, Entry
 from golc.nqc.behaviours import Wanted, has_hooks, reach, wanted
-from golc.nqc.dispatch import Counter, Dispatch, Names, counters, numbers
+from golc.nqc.dispatch import Counter, Dispatch, Names, counters, dispatch, numbers
 from golc.nqc.files import open_seal, seal
 from golc.nqc.source import Kind, NqcSource
 from golc.nqc.words import HOOKS
-from golc.theory.theory import BasicActionTheory, ByStart, Device, Fixed
+from golc.theory.theory import BasicActionTheory, ByCall, ByStart, Device, Fixed
 
 if TYPE_CHECKING:
     from jinja2 import Environment
@@ -23,6 +23,9 @@ TIMER = 3
 
 QUEUE_BITS = 14
 """Bits of a brick's variable in which events are packed: the place of the next one must be a positive number too."""
+
+
+NOTHING = Dispatch((), (), 0)
 
 
 @dataclass(frozen=True)
@@ -64,7 +67,8 @@ class Program:
         self._user = user
         self._tones = tones
         self._names = Names(actions)
-        self._dispatch = Dispatch(theory, actions, self._names)
+        self._calls = dispatch(theory, actions, self._names, ByCall, "number")
+        self._starts = dispatch(theory, actions, self._names, ByStart, "golc_number")
 
     @property
     def own_hooks(self) -> bool:
@@ -84,7 +88,13 @@ class Program:
     @property
     def variables(self) -> list[str]:
         """The variables that the generated program has beside those of the event loop and the user."""
-        return [*self._dispatch.arguments, *(counter.name for counter in self.counted)]
+        return [*self.arguments, *(counter.name for counter in self.counted)]
+
+    @property
+    def arguments(self) -> list[str]:
+        """The variables in which arguments reach a behaviour; none where the user's files dispatch themselves."""
+        count = 0 if self.own_hooks else max(self._calls.arguments, self._starts.arguments)
+        return [f"golc_arg{place}" for place in range(1, count + 1)]
 
     @property
     def macros(self) -> list[str]:
@@ -131,15 +141,15 @@ class Program:
             timer=TIMER,
             polled=bool(self.counters),
             queue=queue_of(self.actions),
-            arguments=[] if self.own_hooks else self._dispatch.arguments,
+            arguments=self.arguments,
             declared=self._user.variables,
             counters=self.counted,
             sampled=self.sampled,
             files=files,
             hooks=HOOKS - self._user.definitions.keys(),
             monitors=self.monitors,
-            cases=self._dispatch.cases,
-            ranges=self._dispatch.ranges,
+            calls=self._calls,
+            starts=NOTHING if self.own_hooks else self._starts,
             started=self.started,
             tones=self._tones,
         )
