@@ -417,3 +417,36 @@ def test_without_memory_half_an_event_is_lost_and_counted(talk: Script) -> None:
     _line, brick = talk({83: [[53], [84]], 82: [[]]}, remembers=False)
     assert brick.poll() is None
     assert brick.statistics.lost == 1
+
+
+def test_without_memory_a_granted_action_that_is_never_answered_is_begun_again(talk: Script) -> None:
+    line, brick = talk({36: [[85], [66]], 82: [[]]}, remembers=False)
+    assert brick.perform(4) == 2
+    assert line.numbers == [36, 82, 82, 83, 36]
+    assert brick.statistics.repeated == 1
+
+
+def test_without_memory_a_granted_action_may_have_been_done(talk: Script) -> None:
+    _line, brick = talk({36: [[85]], 82: [[]]}, remembers=False)
+    with pytest.raises(SilentBrickError, match="it was begun, and whether it was done is not known"):
+        brick.perform(4, repeat=False)
+
+
+def test_without_memory_an_action_is_not_begun_for_ever(talk: Script) -> None:
+    line, brick = talk({36: [[74]], 82: [[]]}, remembers=False)
+    with pytest.raises(SilentBrickError, match="begun 6 times, and no answer was complete"):
+        brick.perform(4)
+    assert line.numbers.count(36) == 6
+
+
+def test_a_brick_that_goes_silent_after_asking_for_time(talk: Script) -> None:
+    line, brick = talk({36: [[85]], 82: [[]]})
+    with pytest.raises(SilentBrickError):
+        brick.perform(4, timeout=60)
+    assert line.numbers == [36, 82, 82, 82, 82]
+
+
+def test_an_abort_that_is_answered_with_nonsense(talk: Script) -> None:
+    _line, brick = talk({83: [[100] * 9]})
+    with pytest.raises(NonsenseError):
+        brick.abort()

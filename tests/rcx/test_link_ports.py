@@ -1,6 +1,7 @@
 """Real ports: ptys and sockets with another process at the far end, and everything that is no port at all."""
 
 import os
+import socket
 import stat
 import threading
 import tty
@@ -10,6 +11,8 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import serial
+from serial import rfc2217
 
 from golc.runtime.devices.rcx import (
     Brick,
@@ -66,6 +69,30 @@ def test_a_brick_behind_a_port(small_brick: SmallBrick, kind: str, prefix: str, 
     assert heard[0] == 36
     assert [number for number in heard if number != 83][:4] == [36, 82, 37, 82]
     assert 81 in heard
+
+
+@pytest.mark.filterwarnings("ignore:set:DeprecationWarning")
+def test_a_brick_behind_a_serial_port_of_another_machine() -> None:
+    answers = {bytes.fromhex("55ff00f70824db1be4"): bytes.fromhex("55ff00f70840bf37c8")}
+    server = socket.create_server(("127.0.0.1", 0))
+
+    def serve() -> None:
+        connection, _ = server.accept()
+        line: Any = serial.serial_for_url("loop://", timeout=0.01)
+        client: Any = connection.makefile("wb", buffering=0)
+        manager = rfc2217.PortManager(line, client)
+        while data := connection.recv(1000):
+            said = b"".join(manager.filter(data))
+            for frame, answer in answers.items():
+                if frame in said:
+                    connection.sendall(b"".join(manager.escape(answer)))
+        connection.close()
+
+    thread = threading.Thread(target=serve)
+    thread.start()
+    with server, Brick(open_tower(f"rfc2217://127.0.0.1:{server.getsockname()[1]}")) as brick:
+        assert brick.perform(4) == 0
+    thread.join()
 
 
 @pytest.mark.parametrize(("kind", "prefix"), [("pty", ""), ("pty", "usb:"), ("tcp", "")])

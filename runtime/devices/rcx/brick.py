@@ -315,7 +315,7 @@ class Brick:
             try:
                 self.abort()
                 outcome = "it was told to stop and has confirmed that"
-            except (SilentBrickError, PanicError) as error:
+            except (SilentBrickError, PanicError, NonsenseError) as error:
                 outcome = str(error)
             raise PanicError(
                 "the brick panics: it was left alone in the middle of a number, or its program gave up",

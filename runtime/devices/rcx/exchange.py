@@ -20,8 +20,8 @@ logger = logging.getLogger(__name__)
 
 FORGETFUL_ASKS = 2
 """Number of times that *continue* is sent to a brick that may take the second one for another acknowledgement."""
-NEW_AFTER = 2.5
-"""A brick that remembers takes a message for the one before it if it is the same and comes later than about 3 s."""
+NEW_AFTER = 2.9
+"""A brick that remembers takes a message for the one before it if it is the same and comes 3 s later or more."""
 LONGEST = 16
 """Digits after which a number counts as endless: one for each bit is enough in any base."""
 

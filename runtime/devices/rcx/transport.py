@@ -107,7 +107,8 @@ class SerialPort:
                 stopbits=serial.STOPBITS_ONE,
                 exclusive=True,
                 timeout=TICK_SECONDS,
-                write_timeout=WRITE_SECONDS,
+                # pySerial's RFC 2217 has no time-out for writing.
+                write_timeout=None if "rfc2217://" in self.name else WRITE_SECONDS,
             )
         except Exception as error:  # whatever the system (termios.error) or an URL's handler finds
             raise opening_error(self.name, error) from error
