@@ -74,6 +74,8 @@ class Executive(Intake):
         self._node = executable.node
         self._router = router
         self._sources = tuple(sources)
+        events = [action for action in self.dynamics.theory.actions.values() if action.exogenous]
+        self._reporting = tuple(source for source in sources if any(map(source.may_report, events)))
         self._failed: set[Act] = set()
         """The actions that have failed and are not to be tried again before something changes."""
         self._last_failure: DeviceError | None = None
@@ -270,10 +272,7 @@ class Executive(Intake):
 
     def _open(self) -> tuple[str, ...]:
         """The sources that have not ended and may report an exogenous action of this domain."""
-        events = [action for action in self.dynamics.theory.actions.values() if action.exogenous]
-        return tuple(
-            source.name for source in self._sources if not source.ended and any(map(source.may_report, events))
-        )
+        return tuple(source.name for source in self._reporting if not source.ended)
 
     def _why(self, node: Node) -> Exception:
         """The error of a program that is blocked for good: each branch with its condition and the values it had."""
