@@ -1,8 +1,9 @@
 """The control program on the brick, classic protocol: numbers in digits, more time, polls, abort, panic.
 
-It repairs what a brick can without leaving the wire format. A symbol that comes again after the host's time-out, with
-nothing in between, is the same one sent again: it gets the same answer, and nothing is done twice. An event goes out
-with at least two digits, since a digit that has more to come is acknowledged and a last one is not.
+It behaves as the control programs that golc generates, which repair what a brick can without leaving the wire format. A
+symbol that comes again after the host's time-out, with nothing in between, is the same one sent again: it gets the same
+answer, and nothing is done twice. An event goes out with at least two digits, since a digit that has more to come is
+acknowledged and a last one is not.
 """
 
 from __future__ import annotations
@@ -14,12 +15,14 @@ from typing import Protocol
 from golc.nqc.wire import Wire
 from golc.runtime.rcxsim.trace import Trace
 
-REPEAT_AFTER = 3.2
+REPEAT_AFTER = 3.0
 """The host sends again after 3.5 s without an answer; the same action anew comes sooner, or after a poll."""
-MORE_TIME_AFTER = 3.0
+MORE_TIME_AFTER = 2.5
 """Seconds after the host's last part at which a behaviour that still runs asks for more time."""
-PANIC_AFTER = 15.0
-"""Seconds without a word in the middle of a number after which the brick panics: four repetitions were lost."""
+PATIENCE = 11.0
+"""Seconds without a word in the middle of a number after which it is given up: three repetitions were lost."""
+PANIC_EVERY = 1.0
+"""Seconds from one cry of panic to the next."""
 
 
 class Behaviours(Protocol):
@@ -105,10 +108,10 @@ class ClassicProgram:
         if message == wire.abort:
             return self._abort(now)
         if self._phase is Phase.PANIC:
-            return (wire.panic,)
+            return ()
         if self._sent_again(message, now):
             self._trace.tell(now, "repeated", message=message)
-            self._deadline = now + (PANIC_AFTER if self._phase is Phase.SENDING else MORE_TIME_AFTER)
+            self._deadline = now + (PATIENCE if self._phase is Phase.SENDING else MORE_TIME_AFTER)
         else:
             self._answer = self._take(message, now)
         self._last = (message, now)
@@ -124,6 +127,8 @@ class ClassicProgram:
             self._answer = (self._wire.more_time,)
         elif self._phase is Phase.SENDING and now >= self._deadline:
             return self._unheard(now)
+        elif self._phase is Phase.PANIC and now >= self._deadline:
+            return self._panic(now)
         else:
             return ()
         self._start_patience(now)
@@ -131,7 +136,7 @@ class ClassicProgram:
 
     def due(self) -> float | None:
         """When ``tick`` is wanted next."""
-        times = [] if self._phase not in (Phase.RUNNING, Phase.SENDING) else [self._deadline]
+        times = [] if self._phase not in (Phase.RUNNING, Phase.SENDING, Phase.PANIC) else [self._deadline]
         if (due := self._behaviours.due()) is not None:
             times.append(due)
         return min(times, default=None)
@@ -163,7 +168,7 @@ class ClassicProgram:
         return self._digit(digit, bool(more), now)
 
     def _digit(self, digit: int, more: bool, now: float) -> Sequence[int]:
-        if now - self._last[1] > PANIC_AFTER:
+        if now - self._last[1] > PATIENCE:
             self._received.clear()  # the number before was never finished
         self._phase = Phase.READY
         self._received.append(digit)
@@ -208,8 +213,7 @@ class ClassicProgram:
                 if self._is_event:
                     self._behaviours.reported(now)
         else:
-            self._trace.tell(now, "ignored", message=self._wire.proceed, why="nothing was to go on")
-            return ()
+            answer = self._answer  # the host has not heard how it ended
         self._start_patience(now)
         return answer
 
@@ -225,7 +229,7 @@ class ClassicProgram:
 
     def _start_patience(self, now: float) -> None:
         if self._phase is Phase.SENDING:
-            self._deadline = now + PANIC_AFTER
+            self._deadline = now + PATIENCE
 
     def _unheard(self, now: float) -> Sequence[int]:
         """The host does not acknowledge. Of an event it may have heard nothing at all: the event waits for a poll."""
@@ -234,4 +238,8 @@ class ClassicProgram:
             return ()
         self._trace.tell(now, "panicked", why="the host stopped acknowledging in the middle of a number")
         self._phase = Phase.PANIC
+        return self._panic(now)
+
+    def _panic(self, now: float) -> Sequence[int]:
+        self._deadline = now + PANIC_EVERY
         return (self._wire.panic,)
