@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.failure import Failure
 from golc.syntax.terminals import word_of
-from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, OTHER_NAMES, RESERVED, STATEMENTS
+from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, OTHER_NAMES, STATEMENTS
 
 
 def no_declaration(failure: Failure) -> Diagnostic | None:
@@ -69,12 +69,7 @@ def misspelt(failure: Failure) -> Diagnostic | None:
 
 
 def reserved(failure: Failure) -> Diagnostic | None:
-    """A reserved word in the place of a name."""
-    word = str(failure.bad)
-    if failure.bad is not None and word in RESERVED and failure.accepts == {"NAME"}:
-        return failure.finding(
-            Code.RESERVED, f"`{word}` is a word of the language and cannot be a name", help="choose another name"
-        )
+    """A word that begins an expression in the place of a name."""
     last = failure.tokens[-1] if failure.tokens else None
     if last is None or str(last) not in AFTER:
         return None

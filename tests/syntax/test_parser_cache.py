@@ -167,6 +167,16 @@ def test_a_relative_cache_home_is_ignored(empty: Path, monkeypatch: pytest.Monke
     assert not (empty.parent / "relative").exists()
 
 
+def test_a_full_disk(empty: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(path: Path, target: Path) -> Path:
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "replace", refuse)
+
+    assert works()
+    assert list(empty.iterdir()) == []
+
+
 def test_two_processes_at_once_leave_one_whole_file(empty: Path) -> None:
     code = "from golc.syntax.parser import parser; parser()"
     processes = [subprocess.Popen([sys.executable, "-c", code]) for _ in range(2)]

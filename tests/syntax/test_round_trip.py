@@ -48,6 +48,39 @@ def test_a_statement_parses_to_itself(trees: Any, parsed: Parsed, data: st.DataO
     assert proc.body.statements == (statement,)
 
 
+def test_a_message_inside_a_message_has_no_text() -> None:
+    with pytest.raises(ValueError, match="a message inside a message"):
+        unparse_expression(ast.Message((ast.Message(("a",)),)))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "a or b and not c = d + e * -f",
+        "((a or b) and c) = d",
+        "not (a and b)",
+        "a - (b - c)",
+        "a - b - c",
+        "(a implies b) implies c",
+        "a implies b implies c",
+        "(a iff b) iff c",
+        "(exists x: t. p(x)) and q",
+        "q and exists x: t. p(x) and q",
+        "(count x: t. p(x)) + 1 + count x: t. p(x)",
+        "a if exists x: t. p(x) else b if c else d",
+        "(a if b else c) if d else e",
+        "(-a)[0] + l[0][1] + [a][0] + f(b)[1]",
+        "x in 1..6 and y not in -3..(n + 1)",
+        "a in {b} + {}",
+    ],
+)
+def test_no_parentheses_too_many(text: str) -> None:
+    expression = parse_expression(Source("t", text), Findings())
+
+    assert expression is not None
+    assert unparse_expression(expression) == text
+
+
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_a_written_file_parses_to_itself(path: Path, parsed: Parsed) -> None:
     file = parsed(read_source(path).text)
