@@ -14,6 +14,8 @@ from typing import Any
 
 import pytest
 
+from golc.runtime.devices.rcx import Brick, Tower
+
 SMALL_BRICK = Path(__file__).with_name("small_brick.py")
 ANSWERS: dict[str, list[Any]] = {"36": [[64]], "83": [[84]], "81": [[]]}
 
@@ -161,3 +163,14 @@ def scripted(table: Mapping[int, Sequence[Sequence[int | tuple[float, int]]]]) -
 @pytest.fixture
 def script() -> Callable[..., Answerer]:
     return scripted
+
+
+@pytest.fixture
+def talk(air: type[Air], script: Callable[..., Answerer]) -> Callable[..., tuple[Air, Brick]]:
+    """A line to a brick with a table of answers, and the host's end of it."""
+
+    def start(table: dict[int, Any], **options: Any) -> tuple[Air, Brick]:
+        line = air(script({83: [[84]], **table}))
+        return line, Brick(Tower(line), **options)
+
+    return start
