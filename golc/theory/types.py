@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TypeAlias
+from typing import TypeAlias, overload
 
 Value: TypeAlias = Hashable
 
@@ -35,7 +35,7 @@ class Type:
     @property
     def kinds(self) -> frozenset[str]:
         """What sorts of value it has: ``int``, ``bool``, ``real``, ``string``, ``none``, ``set``, ``list``, or
-        ``symbol:E`` for the enumeration E. Terms whose kinds are disjoint can never be equal: comparing them is a type error."""
+        ``symbol:E`` for the enumeration E. Terms of disjoint kinds are never equal: comparing them is a type error."""
         raise NotImplementedError
 
 
@@ -148,7 +148,7 @@ class Optional(Type):
 
     @cached_property
     def values(self) -> Sequence[Value]:
-        return (None, *self.base.values)
+        return _NoneFirst(self.base.values)
 
     def __contains__(self, value: object) -> bool:
         return value is None or value in self.base
@@ -159,6 +159,29 @@ class Optional(Type):
 
     def __str__(self) -> str:
         return f"{self.base}?"
+
+
+@dataclass(frozen=True)
+class _NoneFirst(Sequence[Value]):
+    """``none`` before other values, which are not copied: a ``range`` may be longer than memory."""
+
+    rest: Sequence[Value]
+
+    def __len__(self) -> int:
+        return 1 + len(self.rest)
+
+    @overload
+    def __getitem__(self, place: int) -> Value: ...
+    @overload
+    def __getitem__(self, place: slice) -> tuple[Value, ...]: ...
+    def __getitem__(self, place: int | slice) -> Value | tuple[Value, ...]:
+        if isinstance(place, slice):
+            return tuple([self[each] for each in range(len(self))[place]])
+        place = range(len(self))[place]
+        return self.rest[place - 1] if place else None
+
+    def __contains__(self, value: object) -> bool:
+        return value is None or value in self.rest
 
 
 NONE = Optional(Enumeration(()))
