@@ -75,10 +75,11 @@ def chained(failure: Failure) -> Diagnostic | None:
     if first is None:
         return None
     quantifier = next((token for token in words[: words.index(first)] if token.type in QUANTIFIERS), None)
+    sign = second.group() if second else str(failure.bad)
     return failure.finding(
         Code.SYNTAX,
-        f"`{first}` and `{second.group() if second else failure.bad}` cannot be chained",
-        help=_unchain(first, second.group() if second else str(failure.bad), quantifier),
+        f"`{sign}` cannot be chained" if sign == first else f"`{first}` and `{sign}` cannot be chained",
+        help=_unchain(first, sign, quantifier),
         labels=(Label(failure.span(first), "the first one"),),
     )
 

@@ -55,7 +55,7 @@ def test_ten_mistakes_are_ten_findings_in_the_order_of_the_text() -> None:
         (16, 22, Code.FOREIGN, "a line does not end in a full stop"),
         (19, 19, Code.MISSING, "the colon at the end of this `while` is missing"),
         (22, 1, Code.SYNTAX, "`acton` begins no declaration"),
-        (24, 19, Code.SYNTAX, "`<` and `<` cannot be chained"),
+        (24, 19, Code.SYNTAX, "`<` cannot be chained"),
         (27, 13, Code.SYNTAX, "`cal` is no word here"),
     ]
 
