@@ -280,11 +280,12 @@ class Executive(Intake):
             return self._last_failure
         branches = self.machine.why_blocked(node, self.state)
         span = branches[0].span if branches else node.rule.span
-        labels = tuple(Label(branch.span, _blame(branch)) for branch in branches)
+        marker = _blame(branches[0]) if branches else ""
+        labels = tuple(Label(branch.span, _blame(branch)) for branch in branches[1:])
         open_ = self._open()
         message = "the program is blocked" + ("" if open_ else ", and no source is open that could report anything")
         notes = tuple(note for branch in branches if (note := self._since_the_plan(branch)))
-        return ProgramError(Diagnostic(Code.BLOCKED, message, span, labels=labels, notes=notes))
+        return ProgramError(Diagnostic(Code.BLOCKED, message, span, marker=marker, labels=labels, notes=notes))
 
     def _since_the_plan(self, branch: Why) -> str | None:
         """Where a plan of ``search`` was lost, the exogenous actions since it was made."""

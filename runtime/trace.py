@@ -38,6 +38,9 @@ WHAT, WHO = 30, 12
 MARGIN = " " * 11
 """As wide as the time and the space behind it."""
 
+FEW = 4
+"""So many values of one fluent are all shown."""
+
 INSTANT = 0.005
 """Seconds below which a duration is not worth mentioning."""
 
@@ -148,8 +151,9 @@ class Trace:
         tick = f"  {self._sign('✓', 'ok')} {done.duration:.2f} s"
         yield self._row(done.time, GREEN, tick, rest="; ".join(part for part in (answer, changes) if part))
         for surprise in done.surprises:
-            text = f"{surprise.fluent or 'what it senses'} was thought to be {show(surprise.expected)}"
-            yield self._row(None, YELLOW, "", rest=self._style.paint(YELLOW, text))
+            if surprise.fluent is None:  # a fluent has changed, as the line above says
+                text = f"what it senses was thought to be {show(surprise.expected)}"
+                yield self._row(None, YELLOW, "", rest=self._style.paint(YELLOW, text))
 
     def _taken_in(self, event: TakenIn) -> Iterator[str]:
         call = f"{self._in} {show_call(event.action, event.args)}"
@@ -225,8 +229,11 @@ def _family(name: str, known: list[tuple[tuple[Value, ...], Value]]) -> str:
         holds = [_arguments(args) for args, value in known if value]
         return f"{name} holds for {', '.join(holds)}" if holds else f"{name} holds for nothing"
     usual = Counter(value for _, value in known).most_common(1)[0][0]
-    others = [f"{show_call(name, args)} = {show(value)}" for args, value in known if value != usual]
-    return ", ".join([*others, f"all other {name} = {show(usual)}"]) if others else f"every {name} = {show(usual)}"
+    others = [(args, value) for args, value in known if value != usual]
+    if not others:
+        return f"every {name} = {show(usual)}"
+    shown = [f"{show_call(name, args)} = {show(value)}" for args, value in (known if len(known) <= FEW else others)]
+    return ", ".join(shown if len(known) <= FEW else [*shown, f"all other {name} = {show(usual)}"])
 
 
 def _arguments(args: tuple[Value, ...]) -> str:

@@ -9,7 +9,7 @@ from fractions import Fraction
 from golc.diagnostics import Code, Findings, Label, Span, UserError
 from golc.nqc.actionmap import ActionMap, Entry
 from golc.nqc.behaviours import check_forms
-from golc.nqc.numbering import number_device
+from golc.nqc.numbering import implied, number_device
 from golc.nqc.userfiles import scan_file, user_file
 from golc.nqc.wire import DEFAULTS, LAST_RANGE
 from golc.nqc.words import LONGEST_NAME, complaint
@@ -94,8 +94,8 @@ def _shown(value: Fraction) -> str:
 
 
 def _check_implicit(theory: BasicActionTheory, findings: Findings) -> None:
-    """A brick without bindings takes what no other device has: there can be one of them."""
-    bare = [device for device in theory.devices if device.kind == RCX and not device.bindings]
+    """A device without bindings takes what no other device has: there can be one of them."""
+    bare = [device for device in theory.devices if not device.bindings]
     for device in bare[1:]:
         findings.error(
             Code.NO_DEVICE,
@@ -111,7 +111,7 @@ def _check_done(theory: BasicActionTheory, bricks: Iterable[ActionMap], findings
     bound: dict[str, list[Binding | Entry]] = {}
     for device in theory.devices:
         if device.kind != RCX:
-            for binding in device.bindings:
+            for binding in device.bindings or implied(theory, device):
                 bound.setdefault(binding.action, []).append(binding)
     for actions in bricks:
         for entry in actions.entries:

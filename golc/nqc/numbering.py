@@ -13,7 +13,7 @@ from golc.nqc.wire import wire_of
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, Device, Parameter
 from golc.theory.types import Interval, Type, show
 
-__all__ = ["ActionMap", "Entry", "number_device"]
+__all__ = ["ActionMap", "Entry", "implied", "number_device"]
 
 
 def number_device(theory: BasicActionTheory, device: Device, findings: Findings) -> ActionMap:
@@ -22,7 +22,7 @@ def number_device(theory: BasicActionTheory, device: Device, findings: Findings)
     A binding without a number takes the smallest free numbers in a row, after all explicit ones have their place. What
     is wrong with the numbers goes to the findings; the map that comes back is then incomplete but usable.
     """
-    bindings = device.bindings or tuple(_implicit(theory, device))
+    bindings = device.bindings or tuple(implied(theory, device))
     drafts = [entry for binding in bindings if (entry := _draft(theory, binding, findings)) is not None]
     entries = _place(drafts, {id(entry) for entry in drafts if entry.first >= 0})
     _check_clashes(entries, findings)
@@ -32,7 +32,7 @@ def number_device(theory: BasicActionTheory, device: Device, findings: Findings)
     return ActionMap(device, tuple(sorted(entries, key=lambda entry: entry.first)), wire_of(device))
 
 
-def _implicit(theory: BasicActionTheory, device: Device) -> Iterator[Binding]:
+def implied(theory: BasicActionTheory, device: Device) -> Iterator[Binding]:
     """Bindings for a device that has none: every primitive action that no other device has, and every exogenous
     action that a brick may report, in the order of declaration."""
     elsewhere = {binding.action for other in theory.devices if other is not device for binding in other.bindings}

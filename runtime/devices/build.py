@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 from golc.diagnostics import Code, DeviceError, Diagnostic, Findings, UserError
-from golc.nqc.numbering import ActionMap, number_device
+from golc.nqc.numbering import ActionMap, implied, number_device
 from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Device
 from golc.runtime.devices.bricks import Link, RcxDevice
@@ -30,12 +29,10 @@ class Surroundings:
 def build_devices(theory: BasicActionTheory, surroundings: Surroundings) -> list[Device]:
     """All devices of a theory, in the order of declaration, none of them open.
 
-    Raises ``UserError`` if an action has no device or the numbers of a brick make no sense.
+    Raises ``UserError`` if the numbers of a brick make no sense, or if `self` is to sense something.
     """
     maps = brick_maps(theory)
-    devices = [_build(theory, device, maps, surroundings) for device in theory.devices]
-    _check_complete(theory, maps)
-    return devices
+    return [_build(theory, device, maps, surroundings) for device in theory.devices]
 
 
 def brick_maps(theory: BasicActionTheory) -> dict[str, ActionMap]:
@@ -51,7 +48,7 @@ def brick_maps(theory: BasicActionTheory) -> dict[str, ActionMap]:
 def _build(
     theory: BasicActionTheory, device: th.Device, maps: dict[str, ActionMap], surroundings: Surroundings
 ) -> Device:
-    bindings = device.bindings or tuple(_implied(theory, device))
+    bindings = device.bindings or tuple(implied(theory, device))
     match device.kind:
         case "rcx":
             if surroundings.link is None:
@@ -66,36 +63,8 @@ def _build(
             return Itself(device.name, bindings)
 
 
-def _implied(theory: BasicActionTheory, device: th.Device) -> Iterator[Binding]:
-    """Bindings for a device without any: every primitive action that no other device has."""
-    elsewhere = {binding.action for other in theory.devices if other is not device for binding in other.bindings}
-    for action in theory.actions.values():
-        if not action.exogenous and action.name not in elsewhere:
-            yield Binding(action.name, action.parameters, None, None, None, None, span=device.span)
-
-
 def _check_senseless(theory: BasicActionTheory, device: th.Device, bindings: tuple[Binding, ...]) -> None:
     for binding in bindings:
         if theory.actions[binding.action].senses:
             message = f"`{binding.action}` senses, but the device `self` cannot answer"
             raise UserError(Diagnostic(Code.NO_DEVICE, message, binding.span, help="bind it to another device"))
-
-
-def _check_complete(theory: BasicActionTheory, maps: dict[str, ActionMap]) -> None:
-    """Every primitive action must have a device for some arguments at least."""
-    bound = {entry.action for numbers in maps.values() for entry in numbers.entries}
-    for device in theory.devices:
-        bound.update(binding.action for binding in device.bindings or _implied(theory, device))
-    missing = [action for action in theory.actions.values() if not action.exogenous and action.name not in bound]
-    if missing:
-        raise UserError(
-            *(
-                Diagnostic(
-                    Code.NO_DEVICE,
-                    f"no device performs `{action.name}`",
-                    action.span,
-                    help="bind it in a device block; a block `device self:` takes actions that nothing performs",
-                )
-                for action in missing
-            )
-        )

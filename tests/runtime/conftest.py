@@ -1,11 +1,13 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Sequence
+import subprocess
+import sys
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from textwrap import dedent
-from typing import Any
+from typing import IO, Any
 
 import pytest
 
@@ -156,6 +158,12 @@ def start() -> Starter:
 
 
 @pytest.fixture
+def unchecked() -> Callable[[str], BasicActionTheory]:
+    """The theory that a text declares, without the checks."""
+    return theory_of
+
+
+@pytest.fixture
 def delivery() -> BasicActionTheory:
     return load(DELIVERY)
 
@@ -188,3 +196,47 @@ def failing() -> Callable[[int], Perform]:
 def case() -> Callable[[str], dict[str, Any]]:
     """A recorded case by its name."""
     return lambda name: json.loads((ROOT / f"tests/cases/{name}.json").read_text())
+
+
+class Robot:
+    """A brick process of a test: its port and what it has heard."""
+
+    def __init__(self, mood: str) -> None:
+        script = Path(__file__).with_name("legolog_robot.py")
+        self.process = subprocess.Popen([sys.executable, str(script), mood], stdout=subprocess.PIPE, text=True)
+        assert self.process.stdout is not None
+        self._out: IO[str] = self.process.stdout
+        self.port = self._out.readline().strip()
+        self.heard: list[int] = []
+
+    def wait_for(self, number: int) -> None:
+        """Read what it hears until it has heard this, after the abort at the beginning."""
+        while number not in self.heard[1:]:
+            line = self._out.readline()
+            assert line, f"the robot has gone; it heard {self.heard}"
+            self.heard.append(int(line))
+
+    def everything(self) -> list[int]:
+        """All that it has heard, when nobody speaks to it any more."""
+        self.process.terminate()
+        self.heard += [int(line) for line in self._out]
+        return self.heard
+
+    def close(self) -> None:
+        self.process.kill()
+        self.process.wait()
+        self._out.close()
+
+
+@pytest.fixture
+def robot() -> Iterator[Callable[[str], Robot]]:
+    """Starts a delivery robot in some mood (``legolog_robot.py``)."""
+    made: list[Robot] = []
+
+    def make(mood: str) -> Robot:
+        made.append(Robot(mood))
+        return made[-1]
+
+    yield make
+    for each in made:
+        each.close()
