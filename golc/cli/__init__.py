@@ -9,6 +9,7 @@ from collections.abc import Sequence
 import click
 
 from golc.diagnostics import DeviceError, Diagnostic, GolcError, ProgramError, UserError
+from golc.theory.recursion import EVALUATION
 
 COMMANDS = {
     "check": "golc.cli.check",
@@ -51,6 +52,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 def invoke(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; every error that golc raises on purpose is said in one place."""
+    sys.setrecursionlimit(EVALUATION)
     try:
         code = cli.main(args=None if arguments is None else list(arguments), prog_name="golc", standalone_mode=False)
         return code if isinstance(code, int) else 0

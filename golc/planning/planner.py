@@ -17,6 +17,7 @@ from golc.program.program import Program
 from golc.program.step import Machine, Path
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
+from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value
 
@@ -35,7 +36,8 @@ def executable(theory: BasicActionTheory, procedure: str, args: tuple[Value, ...
     dynamics = Dynamics(theory)
     program = Program()
     ahead = Machine(dynamics, program, look_ahead)
-    node = Builder(dynamics, program).start(procedure, args)
+    with deep_recursion():
+        node = Builder(dynamics, program).start(procedure, args)
     return Executable(dynamics, Machine(dynamics, program, look_ahead, ahead), node)
 
 

@@ -10,6 +10,7 @@ from golc.diagnostics import Span
 from golc.program.labels import Act
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
+from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import DefinedTerm, FluentTerm, Operation, Operator, StaticTerm, Term, Variable, subterms
 from golc.theory.types import Value, show, show_call
 
@@ -46,6 +47,11 @@ class Blocked:
 
 def explain(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
     """What a rule reported, in words."""
+    with deep_recursion(EVALUATION):
+        return _explained(dynamics, state, blamed)
+
+
+def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
     span, details = blamed.rule.span, blamed.details
     match blamed.reason:
         case "false":

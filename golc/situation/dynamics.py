@@ -15,6 +15,7 @@ from golc.situation import errors
 from golc.situation.compile import Cells, Compiler, fits, variables
 from golc.situation.interpret import Interpreter
 from golc.situation.layout import Layout, State
+from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
 from golc.theory.types import Value, show_call
@@ -55,7 +56,8 @@ class Dynamics:
 
     def initial(self) -> State:
         """The initial state."""
-        return self.interpreter.initial()
+        with deep_recursion(EVALUATION):
+            return self.interpreter.initial()
 
     def possible(self, state: State, action: str, args: Args) -> bool:
         """Whether the action's preconditions hold."""
@@ -190,7 +192,8 @@ class _Lazy(dict[str, Callable[..., Any]]):
         self._make = make
 
     def __missing__(self, name: str) -> Callable[..., Any]:
-        self[name] = function = self._make(name)
+        with deep_recursion():
+            self[name] = function = self._make(name)
         return function
 
 

@@ -10,6 +10,7 @@ from golc.diagnostics import Findings, ProgramError, Source
 from golc.situation.dynamics import Dynamics
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
+from golc.theory.theory import BasicActionTheory
 
 DOMAIN = """domain d
 type t = 1..3
@@ -41,11 +42,16 @@ ERRORS = [
 
 
 @pytest.mark.parametrize(("effect", "code", "place", "message"), ERRORS, ids=[error[0] for error in ERRORS])
-def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: str, place: str, message: str) -> None:
-    findings, source = Findings(), Source("d.gl", f"{DOMAIN}action a:\n    causes {effect}\n")
+def theory_of(text: str) -> BasicActionTheory:
+    findings, source = Findings(), Source("d.gl", text)
     file = parse_file(source, findings)
     theory = elaborate(file, source, findings) if file else None
     assert theory is not None, findings.diagnostics
+    return theory
+
+
+def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: str, place: str, message: str) -> None:
+    theory = theory_of(f"{DOMAIN}action a:\n    causes {effect}\n")
     dynamics = Dynamics(theory)
     state = dynamics.initial()
     ways: list[Callable[[], object]] = [
@@ -62,9 +68,25 @@ def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: 
 
 
 def test_what_is_not_evaluated_is_no_error() -> None:
-    findings, source = Findings(), Source("d.gl", f"{DOMAIN}action a:\n    causes x := 1 when x != 0 and 1 // x = 1\n")
-    file = parse_file(source, findings)
-    theory = elaborate(file, source, findings) if file else None
-    assert theory is not None, findings.diagnostics
+    theory = theory_of(f"{DOMAIN}action a:\n    causes x := 1 when x != 0 and 1 // x = 1\n")
     dynamics = Dynamics(theory)
     assert dynamics.progress(dynamics.initial(), "a", ()) == dynamics.initial()
+
+
+def test_terms_may_be_as_deep_as_the_parser_allows() -> None:
+    deep = "(1 + " * 480 + "x" + ")" * 480
+    text = f"{DOMAIN}action a:\n    poss {'not (' * 480}x = 0{')' * 480}\n    causes x := {deep}\n"
+    theory = theory_of(text)
+    dynamics = Dynamics(theory)
+    state = dynamics.initial()
+    assert dynamics.possible(state, "a", ())
+    assert dynamics.value(dynamics.progress(state, "a", ()), "x") == 480
+
+
+def test_recursive_functions_may_go_deep_if_they_end() -> None:
+    text = (
+        DOMAIN + "static total(n: int): int = 0 if n = 0 else n + total(n - 1)\naction a:\n    causes x := total(400)\n"
+    )
+    theory = theory_of(text)
+    dynamics = Dynamics(theory)
+    assert dynamics.value(dynamics.progress(dynamics.initial(), "a", ()), "x") == 80200
