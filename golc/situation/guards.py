@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 
 from golc.situation import errors
+from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Operation, Quantified, Term
 from golc.theory.theory import Static
 from golc.theory.types import Type, Value, show_call
@@ -32,13 +33,23 @@ class Memo(dict[tuple[Value, ...], Value]):
     def __init__(self, static: Static) -> None:
         super().__init__()
         self._static = static
+        self._within = False
 
     def __missing__(self, args: tuple[Value, ...]) -> Value:
-        static = self._static
+        if self._within:
+            return self._compute(args)
+        self._within = True
         try:
-            value = self.function((), *args)
+            with deep_recursion(EVALUATION):
+                return self._compute(args)
         except RecursionError:
-            raise errors.endless(static.span, static.name) from None
+            raise errors.endless(self._static.span, self._static.name) from None
+        finally:
+            self._within = False
+
+    def _compute(self, args: tuple[Value, ...]) -> Value:
+        static = self._static
+        value = self.function((), *args)
         if value not in static.type:
             assert not isinstance(static.body, Mapping)
             raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)

@@ -41,7 +41,6 @@ ERRORS = [
 ]
 
 
-@pytest.mark.parametrize(("effect", "code", "place", "message"), ERRORS, ids=[error[0] for error in ERRORS])
 def theory_of(text: str) -> BasicActionTheory:
     findings, source = Findings(), Source("d.gl", text)
     file = parse_file(source, findings)
@@ -50,6 +49,7 @@ def theory_of(text: str) -> BasicActionTheory:
     return theory
 
 
+@pytest.mark.parametrize(("effect", "code", "place", "message"), ERRORS, ids=[error[0] for error in ERRORS])
 def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: str, place: str, message: str) -> None:
     theory = theory_of(f"{DOMAIN}action a:\n    causes {effect}\n")
     dynamics = Dynamics(theory)
