@@ -46,8 +46,8 @@ def to_json(diagnostic: Diagnostic) -> dict[str, Any]:
     """A diagnostic as JSON has it.
 
     ``code``, ``title``, ``severity`` (``error``, ``warning``, ``note``), ``message``, ``span``, ``marker`` (the text
-    beside the mark, perhaps empty), ``labels`` (each a ``span`` and a ``text``), ``notes`` (texts) and ``help`` (a text
-    or null). A span has ``file``, ``line``, ``column``, ``end_line``, ``end_column``: all from 1, columns in characters,
+    beside the mark, perhaps empty), ``labels`` (each a ``span`` and a ``text``), ``notes`` (texts), ``help`` (a text or
+    null). A span has ``file``, ``line``, ``column``, ``end_line``, ``end_column``: all from 1, columns in characters,
     the end exclusive.
     """
     return {
