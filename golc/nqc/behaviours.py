@@ -73,7 +73,7 @@ def check_behaviours(actions: ActionMap, nqc: NqcSource, taken: Set[str], findin
     ``taken`` are the names that the generated program defines for this theory.
     """
     check_forms(actions, nqc, findings)
-    _check_names(nqc, taken, findings)
+    _check_names(nqc, taken, actions.device, findings)
     _check_messages(actions.wire, nqc, actions.device, findings)
 
 
@@ -125,9 +125,10 @@ def _count(number: int) -> str:
     return f"{number or 'no'} argument{'' if number == 1 else 's'}"
 
 
-def _check_names(nqc: NqcSource, taken: Set[str], findings: Findings) -> None:
+def _check_names(nqc: NqcSource, taken: Set[str], device: Device, findings: Findings) -> None:
     """The control program has names of its own; the hooks are the user's to define, and its two variables too."""
     places = {**nqc.variables, **{name: definition.span for name, definition in nqc.definitions.items()}}
+    places |= {name: device.span for name in nqc.macros if name in taken}
     for name, span in places.items():
         if name == "main" or name in taken or name.startswith("golc_"):
             findings.error(
