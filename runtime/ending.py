@@ -30,15 +30,13 @@ def verdict_on(error: BaseException) -> tuple[End, str]:
 
 
 def release(sources: Sequence[Source], devices: Sequence[Device]) -> tuple[tuple[str, str], ...]:
-    """Silence the sources, tell every device to stop, and let go of it; the names of those that could not be told."""
+    """Tell every device to stop, silence the sources, let go of everything; the devices that could not be told."""
+    attempts = [(device.name, _attempt(device.abort)) for device in devices]
     for source in sources:
         _attempt(source.close)
-    unstopped = []
     for device in devices:
-        if (failure := _attempt(device.abort)) is not None:
-            unstopped.append((device.name, failure))
         _attempt(device.close)
-    return tuple(unstopped)
+    return tuple((name, failure) for name, failure in attempts if failure is not None)
 
 
 def _attempt(action: Callable[[], None]) -> str | None:

@@ -87,10 +87,10 @@ class Executive(Intake):
         """
         opened: list[Device] = []
         try:
+            self.tell(Started(self.clock.now(), self.state))
             for device in self._devices:
                 device.open()
                 opened.append(device)
-            self.tell(Started(self.clock.now(), self.state))
             for source in self._sources:
                 source.start()
             end, message = self._loop(self._node)

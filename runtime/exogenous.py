@@ -17,7 +17,7 @@ from golc.runtime.calls import Call, did_you_mean, read_exogenous
 from golc.runtime.clock import Clock
 from golc.runtime.desk import Desk
 from golc.runtime.happenings import Begun, Happening
-from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Reply, Report
+from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Reply, Report, end_thread, reporting_thread
 from golc.runtime.schedule import Player, Schedule
 from golc.theory.theory import Action, BasicActionTheory
 
@@ -133,7 +133,7 @@ class Terminal:
         self._reply = reply
         self._descriptor = descriptor
         self._wake, self._waker = os.pipe()
-        self._thread = threading.Thread(target=self._run, name="golc stdin", daemon=True)
+        self._thread = reporting_thread(inbox, self.name, self._run)
         self.ended = False
 
     def may_report(self, action: Action) -> bool:
@@ -145,7 +145,7 @@ class Terminal:
     def close(self) -> None:
         """Stop reading; what was not read stays in the descriptor."""
         os.write(self._waker, b"x")
-        self._thread.join(1)
+        end_thread(self._thread)
         os.close(self._wake)
         os.close(self._waker)
 
@@ -186,7 +186,7 @@ class Timetable:
         self._clock = clock
         self._changed = threading.Condition()
         self._closed = False
-        self._thread = threading.Thread(target=self._run, name="golc schedule", daemon=True)
+        self._thread = reporting_thread(inbox, self.name, self._run)
 
     @property
     def ended(self) -> bool:
@@ -217,7 +217,7 @@ class Timetable:
         with self._changed:
             self._closed = True
             self._changed.notify()
-        self._thread.join(1)
+        end_thread(self._thread)
 
     def _run(self) -> None:
         with self._changed:

@@ -27,7 +27,7 @@ class Happening:
 
 @dataclass(frozen=True, slots=True)
 class Started(Happening):
-    """The devices are ready."""
+    """The run begins, with the devices still to be opened."""
 
     state: State
 

@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Literal, Protocol, TypeAlias
 
-from golc.diagnostics import Diagnostic, GolcError
+from golc.diagnostics import Diagnostic
 from golc.theory.theory import Action
 from golc.theory.types import Value
 
@@ -55,10 +55,10 @@ class Closed:
 
 @dataclass(frozen=True, slots=True)
 class Broken:
-    """A source or a device failed outside an action."""
+    """A source or a device failed outside an action; the run ends with this error."""
 
     source: str
-    error: GolcError
+    error: Exception
 
 
 Item: TypeAlias = Report | Command | Refusal | Closed | Broken
@@ -109,3 +109,21 @@ class Inbox:
         """Wait until there is an item, at most for some seconds; whether there is one."""
         self._arrived.clear()
         return bool(self.items) or self._arrived.wait(timeout)
+
+
+def reporting_thread(inbox: Inbox, name: str, work: Callable[[], None]) -> threading.Thread:
+    """A thread for a source; what it raises ends the run, so that no source falls silent unnoticed."""
+
+    def run() -> None:
+        try:
+            work()
+        except Exception as error:
+            inbox.put(Broken(name, error))
+
+    return threading.Thread(target=run, name=f"golc {name}", daemon=True)
+
+
+def end_thread(thread: threading.Thread) -> None:
+    """Wait for a thread that was told to end, if it ever began, but not for long: it must not hold up the others."""
+    if thread.is_alive():
+        thread.join(2)

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from golc.diagnostics import DeviceError
 from golc.runtime.exogenous import Lines, Splitter, from_operator, one_line
-from golc.runtime.inbox import Command, Inbox, Item, Refusal
+from golc.runtime.inbox import Command, Inbox, Item, Refusal, end_thread, reporting_thread
 from golc.theory.theory import Action, BasicActionTheory
 
 
@@ -32,7 +32,7 @@ class Listener:
         self._selector = selectors.DefaultSelector()
         self._wake, self._waker = os.pipe()
         self._clients: dict[int, _Client] = {}
-        self._thread = threading.Thread(target=self._run, name="golc tcp", daemon=True)
+        self._thread = reporting_thread(inbox, self.name, self._run)
 
     def may_report(self, action: Action) -> bool:
         return from_operator(action)
@@ -46,7 +46,7 @@ class Listener:
         """Stop listening and hang up."""
         self.ended = True
         os.write(self._waker, b"x")
-        self._thread.join(1)
+        end_thread(self._thread)
         for client in self._clients.values():
             client.connection.close()
         self._server.close()

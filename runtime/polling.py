@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from golc.diagnostics import GolcError
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Device
-from golc.runtime.inbox import Broken, Inbox, Report
+from golc.runtime.inbox import Broken, Inbox, Report, end_thread, reporting_thread
 from golc.theory.theory import Action
 
 
@@ -25,7 +25,7 @@ class Poller:
         self._inbox = inbox
         self._clock = clock
         self._stop = threading.Event()
-        self._thread = threading.Thread(target=self._run, name="golc polling", daemon=True)
+        self._thread = reporting_thread(inbox, self.name, self._run)
 
     def may_report(self, action: Action) -> bool:
         return action.name in self._reported
@@ -36,8 +36,7 @@ class Poller:
     def close(self) -> None:
         """Stop asking; an answer that is awaited is still waited for, but not for long."""
         self._stop.set()
-        if self._thread.is_alive():
-            self._thread.join(2)
+        end_thread(self._thread)
 
     def _run(self) -> None:
         due = dict.fromkeys(self._devices, 0.0)

@@ -15,6 +15,7 @@ from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Device, Router
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, build_devices
+from golc.runtime.devices.host import load_module
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
@@ -116,6 +117,14 @@ def test_the_operator_presses_enter(devices: Devices) -> None:
 
     assert operator.perform("fix", ()) == ()
     assert said == ["Fix it, then press Enter", "press Enter, with nothing before it, when it is done"]
+
+
+def test_who_has_answered_ahead_can_be_asked_though_the_pipe_has_ended() -> None:
+    desk = answering(["next"], [])
+
+    assert desk.is_open
+    assert desk.ask("Retry?", str) == "next"
+    assert not desk.is_open
 
 
 def test_without_an_operator_the_action_fails(devices: Devices) -> None:
@@ -233,6 +242,16 @@ def test_whatever_a_function_raises_is_a_device_failure_with_its_line(devices: D
     assert "helpers.py:9: " in str(failure.value)
     assert str(failure.value).endswith("no left")
     assert failure.value.__cause__ is not None
+
+
+def test_a_failure_in_a_file_named_by_a_relative_path_has_its_line(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("broken.py").write_text("x = 1\nraise ValueError('no')\n")
+
+    with pytest.raises(DeviceError, match=r"broken\.py:2: ValueError: no"):
+        load_module(Path("broken.py"))
 
 
 def test_an_interrupt_of_the_run_passes_through_a_function(devices: Devices) -> None:
