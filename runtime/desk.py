@@ -42,8 +42,8 @@ class Desk:
 
     @property
     def is_open(self) -> bool:
-        """Whether somebody can still answer."""
-        return self._open
+        """Whether somebody can still answer, or has answered ahead."""
+        return self._open or bool(self._lines)
 
     def offer(self, line: str, report: bool) -> bool:
         """Take a line if it is (or may be) an answer; ``report`` says whether it is otherwise a report.

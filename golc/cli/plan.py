@@ -152,7 +152,7 @@ class _Json:
 
 def _report(console: Console, program: str, outcome: Outcome, stats: bool) -> None:
     if not outcome.plans:
-        verdict = f"gave up: {outcome.gave_up}" if outcome.gave_up else "proven: it cannot be executed to its end"
+        verdict = outcome.gave_up or "proven: it cannot be executed to its end"
         console.err(f"no plan for `{program}`: {verdict}")
         way = ", ".join(map(str, outcome.stuck)) or "no action at all"
         if outcome.reasons:

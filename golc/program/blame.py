@@ -67,6 +67,8 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
             return Blocked(span, "no value can be picked")
         case "waits":
             return Blocked(span, "look-ahead cannot wait for an event that is not expected")
+        case "aborts":
+            return Blocked(span, "the program would end itself as failed here")
         case "lost":
             return _lost(dynamics, state, *details)
         case _:

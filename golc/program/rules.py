@@ -142,6 +142,7 @@ class AbortRule(Step):
 
     def trans(self, walk: Walk, node: Node) -> Found:
         if walk.machine.lookahead:
+            walk.machine.blame(self, "aborts")
             return None
         return Abort(self.text(walk.state, node.operands), self.span), walk.machine.program.nil
 

@@ -117,7 +117,9 @@ def guarded(call: Callable[[], object], name: str, path: Path) -> object:
 
 def _place(error: BaseException, path: Path) -> str:
     """The last line of the file that the exception went through."""
-    if isinstance(error, SyntaxError) and error.filename == str(path):
+    file = path.resolve()
+    if isinstance(error, SyntaxError) and error.filename is not None and Path(error.filename).resolve() == file:
         return f"{path}:{error.lineno}"
-    lines = [frame.lineno for frame in traceback.extract_tb(error.__traceback__) if Path(frame.filename) == path]
+    frames = traceback.extract_tb(error.__traceback__)
+    lines = [frame.lineno for frame in frames if Path(frame.filename).resolve() == file]
     return f"{path}:{lines[-1]}" if lines else str(path)

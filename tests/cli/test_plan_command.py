@@ -55,6 +55,14 @@ def test_a_procedure_may_have_arguments() -> None:
     assert golc("plan", LIFT, "go(6)").stdout == "up(6)\n"
 
 
+def test_a_program_that_would_end_itself_is_named(tmp_path: Path) -> None:
+    file = tmp_path / "doubt.gl"
+    file.write_text('domain doubt\nproc control:\n    abort "no way"\n')
+    done = golc("plan", str(file))
+    assert done.returncode == 1
+    assert f"{file}:3:5: the program would end itself as failed here" in done.stderr
+
+
 def test_no_plan_says_how_far_it_came_and_why() -> None:
     done = golc("plan", ELEVATOR, "handle(3)")
     assert done.returncode == 1
