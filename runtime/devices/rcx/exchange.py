@@ -128,7 +128,9 @@ class Exchange:
         return Collected(number, len(messages), sure and number <= MAXIMUM)
 
     def _next_digit(self, kind: Digits) -> int | None:
-        for attempt in range(self.asks):
+        # A program that remembers gives up half a value in the end, but never an event: it is worth more patience.
+        patient = self._remembers and kind == self._numbers.actions
+        for attempt in range(self._timing.event_sends if patient else self.asks):
             self._statistics.resent += attempt > 0
             answer = self.ask(self._numbers.proceed, kind.all, self._timing.answer)
             if answer is not None:
