@@ -7,7 +7,7 @@ from golc.diagnostics import Code, Findings, Label
 from golc.syntax import tree
 from golc.syntax.walk import descendants
 from golc.theory.declare import declare
-from golc.theory.fitting import overlap, size
+from golc.theory.fitting import meet
 from golc.theory.scope import Entry, Kind, Names
 from golc.theory.theory import BasicActionTheory, Binding, Device, Fixed, Parameter
 
@@ -156,8 +156,5 @@ def _meet(a: Parameter | Fixed, b: Parameter | Fixed) -> bool:
         case (Fixed(value=x), Parameter(type=type_)) | (Parameter(type=type_), Fixed(value=x)):
             return x in type_
         case Parameter(type=s), Parameter(type=t):
-            if not (s.finite and t.finite):
-                return overlap(s, t)
-            small, large = (s, t) if size(s) <= size(t) else (t, s)
-            return any(value in large for value in small.values)
+            return meet(s, t)
     return False

@@ -137,6 +137,8 @@ def _fits(type_: Type, low: int) -> bool:
     """Whether each value of a finite type has a number of its own from ``low`` to the largest."""
     if isinstance(type_, Interval):
         return low <= type_.low and type_.high <= LARGEST
+    if len(type_.values) > 2 * (LARGEST + 1):
+        return False  # more values than there are numbers
     numbers = [value_number(type_, value) for value in type_.values]
     return len(set(numbers)) == len(numbers) and all(n is not None and low <= n <= LARGEST for n in numbers)
 

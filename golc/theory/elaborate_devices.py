@@ -15,7 +15,7 @@ from golc.theory.elaborate_names import arity_fits, doing
 from golc.theory.elaborate_statements import spoken
 from golc.theory.elaborate_types import LARGEST, elaborate_type
 from golc.theory.elaborate_values import parameter_scope
-from golc.theory.fitting import BROKEN, describe, size
+from golc.theory.fitting import BROKEN, describe, includes, size
 from golc.theory.scope import Entry, Kind
 from golc.theory.suggest import closest
 from golc.theory.terms import Literal, Term
@@ -232,11 +232,7 @@ def _unknown_arg(context: Context, node: tree.Ident, parameter: Parameter) -> No
 def _part_of(type_: Type, whole: Type) -> bool:
     if BROKEN in (type_, whole) or type_ == whole:
         return True
-    if not type_.finite:
-        return False
-    if type_.kinds == whole.kinds == INT.kinds and whole == INT:
-        return True
-    return size(type_) <= size(whole) and all(value in whole for value in type_.values) if whole.finite else False
+    return type_.finite and includes(whole, type_)
 
 
 def _behaviour(context: Context, node: tree.Binding, signature: Signature) -> ByCall | ByStart | ByPrompt | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import replace
 
 from golc.diagnostics import Code, Span
@@ -128,6 +129,10 @@ def _interval(context: Context, node: tree.IntervalType) -> Type:
     if low.value > high.value:
         message = f"the interval {low.value}..{high.value} is empty"
         context.error(Code.BAD_TYPE, message, node.span, "the lower bound comes first")
+        return BROKEN
+    if high.value - low.value >= sys.maxsize:
+        message = f"the interval {low.value}..{high.value} has more values than golc can count"
+        context.error(Code.BAD_TYPE, message, node.span, "too many values", "use `int`")
         return BROKEN
     return Interval(low.value, high.value)
 

@@ -77,6 +77,30 @@ def size(type_: Type) -> int:
             return len(type_.values)
 
 
+def includes(whole: Type, part: Type) -> bool:
+    """Whether every value of a finite type belongs to another one; intervals are not enumerated."""
+    if isinstance(part, Optional):
+        return None in whole and includes(strip_optional(whole), part.base)
+    whole = strip_optional(whole)
+    if isinstance(part, Interval) and isinstance(whole, Interval):
+        return whole.low <= part.low and part.high <= whole.high
+    if not whole.finite:
+        return part.kinds <= whole.kinds
+    return size(part) <= size(whole) and all(value in whole for value in part.values)
+
+
+def meet(one: Type, other: Type) -> bool:
+    """Whether two types have a value in common; intervals are not enumerated."""
+    if not (one.finite and other.finite):
+        return overlap(one, other)
+    if None in one and None in other:
+        return True
+    one, other = sorted((strip_optional(one), strip_optional(other)), key=size)
+    if isinstance(one, Interval) and isinstance(other, Interval):
+        return one.low <= other.high and other.low <= one.high
+    return any(value in other for value in one.values)
+
+
 def members(type_: Type) -> tuple[tuple[Value, str], ...]:
     """The values of an interval or an enumeration, each with the enumeration that declared it."""
     match type_:
