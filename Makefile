@@ -9,7 +9,7 @@ BIN = $(VENV)/bin
 demo: $(VENV)/ready nqc
 	$(BIN)/golc check examples/delivery/delivery.gl
 	$(BIN)/golc gen-nqc examples/delivery/delivery.gl --compile
-	$(BIN)/golc run examples/delivery/delivery.gl --events examples/delivery/demo.events --speed 20 --stop-when-idle 30
+	$(BIN)/golc run examples/delivery/delivery.gl --events examples/delivery/demo.events --speed 20 --stop-when-idle 10
 
 test: $(VENV)/ready nqc
 	$(BIN)/ruff format --check .
@@ -23,9 +23,10 @@ bench: $(VENV)/ready
 	$(BIN)/python tests/bench
 
 $(VENV)/ready: pyproject.toml
-	$(PYTHON) -m venv $(VENV) || (tests/packaging/install python3-venv && $(PYTHON) -m venv $(VENV))
-	$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
-	touch $@
+	@echo "setting up $(VENV); this takes a minute"
+	@$(PYTHON) -m venv $(VENV) || (tests/packaging/install python3-venv && $(PYTHON) -m venv $(VENV))
+	@$(BIN)/pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@
 
 nqc:
 	@command -v nqc > /dev/null || tests/packaging/install nqc
