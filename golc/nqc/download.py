@@ -12,8 +12,6 @@ from golc.nqc.toolchain import Target, find_nqc
 SECONDS = 300
 """Six thousand bytes take about a hundred seconds in the air."""
 
-USB = "usb:"
-
 ADVICE = {
     255: ("the port {port} cannot be opened", "is the tower plugged in, and may you use it (group `dialout`)?"),
     254: ("nothing comes back from {port}", "is there an infra-red tower on this port, and is it connected firmly?"),
@@ -27,9 +25,9 @@ def download(image: Path, target: Target, port: str, slot: int | None, heard: Ca
 
     ``heard`` gets nqc's progress as it comes. Raises DeviceError if nqc is missing or the brick does not take it.
     """
-    command = [find_nqc(), f"-T{target.nqc}", f"-S{nqc_port(port)}"]
+    command = [find_nqc(), f"-T{target.nqc}", f"-S{nqc_port(port)}", "-b", "-d"]
     command += [] if slot is None else ["-pgm", str(slot)]
-    command += ["-b", "-d", str(image)]
+    command.append(str(image))
     try:
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL)
     except OSError as error:
