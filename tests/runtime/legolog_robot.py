@@ -28,6 +28,8 @@ FRAMES = {
 NUMBERS = {bytes.fromhex(frame): number for number, frame in FRAMES.items()}
 ACTIONS = (32, 33, 34)
 BROUGHT_ABOUT = {34: 35, 33: 37}
+stumbled: list[int] = []
+"""Whether a clumsy robot has left the line, which it does once."""
 
 
 def answer(number: int, mood: str, events: list[int]) -> int | None:
@@ -49,6 +51,9 @@ def answer(number: int, mood: str, events: list[int]) -> int | None:
         return None
     if mood == "strange":
         events.append(41)
+    elif mood == "clumsy" and number == 34 and not stumbled:
+        stumbled.append(number)
+        events.append(36)
     elif mood != "lost" and number in BROUGHT_ABOUT:
         events.append(BROUGHT_ABOUT[number])
     return 64

@@ -248,6 +248,33 @@ def test_lines_on_standard_input_are_taken_in_or_refused(robot: Robots, golc: Go
     assert "did you mean `!state`?" in err
 
 
+def test_the_operator_helps_a_robot_that_has_left_the_line(robot: Robots, golc: Golcs) -> None:
+    brick = robot("clumsy")
+    run = golc(*fast(brick))
+    printed = run.until("? Please put me back on the line, near station 3, then press Enter")
+    run.type("request_delivery(2, 5)")
+    run.type("there you are")
+    run.type("!state")
+    run.until("? press Enter, with nothing before it, when it is done")
+    run.until("motion = suspended")
+    run.type("")
+    printed += run.until("← arrive_at_station")
+    run.type("!stop")
+
+    code, _, err = run.end()
+
+    assert (code, err) == (0, "")
+    story = [line.split()[3] for line in printed.splitlines() if "→ " in line[:15] or "← " in line[:15]]
+    assert story == [
+        "start_to_next_station",
+        "stop_abnormally",
+        "reposition_robot",
+        "request_delivery(2,",
+        "start_to_next_station",
+        "arrive_at_station",
+    ]
+
+
 def test_exogenous_actions_over_tcp(robot: Robots, golc: Golcs) -> None:
     brick = robot("willing")
     run = golc(*fast(brick), "--listen", "127.0.0.1:0")
