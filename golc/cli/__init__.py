@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import io
 import sys
 from collections.abc import Sequence
 
@@ -53,6 +54,8 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def invoke(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; every error that golc raises on purpose is said in one place."""
     sys.setrecursionlimit(EVALUATION)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")  # as stderr does with what its encoding cannot say
     try:
         code = cli.main(args=None if arguments is None else list(arguments), prog_name="golc", standalone_mode=False)
         return code if isinstance(code, int) else 0

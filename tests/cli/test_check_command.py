@@ -1,0 +1,153 @@
+"""``golc check`` as a process."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+DELIVERY = str(ROOT / "examples" / "delivery" / "delivery.gl")
+SPARE = "domain d\nconst spare = 3\nfluent also_spare = true\n"
+"""Two declarations that nothing uses: two warnings."""
+
+NAMES = str(ROOT / "tests" / "programs" / "names.gl")
+
+
+@pytest.fixture
+def spare(tmp_path: Path) -> str:
+    path = tmp_path / "spare.gl"
+    path.write_text(SPARE)
+    return str(path)
+
+
+def golc(*arguments: str, **environment: str) -> subprocess.CompletedProcess[str]:
+    command = [sys.executable, "-m", "golc", *arguments]
+    return subprocess.run(
+        command, capture_output=True, text=True, timeout=60, check=False, env={**os.environ, **environment}
+    )
+
+
+def test_a_sound_domain_has_no_findings() -> None:
+    done = golc("check", DELIVERY)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "checked 1 file: nothing found\n")
+
+
+def test_an_error_is_shown_with_its_place(tmp_path: Path) -> None:
+    path = tmp_path / "slip.gl"
+    path.write_text("domain slip\nfluent motion = true\naction go:\n    poss motoin\n")
+    done = golc("check", str(path))
+    assert done.returncode == 1
+    assert done.stdout.splitlines() == [
+        "error[GL012]: unknown fluent `motoin`",
+        f" --> {path}:4:10",
+        "  |",
+        "4 |     poss motoin",
+        "  |          ^^^^^^ not declared",
+        "  |",
+        "2 | fluent motion = true",
+        "  |        ------ a fluent with a similar name is declared here",
+        "  = help: did you mean `motion`?",
+        "",
+    ]
+    assert done.stderr == "checked 1 file: 1 error\n"
+
+
+def test_warnings_count_only_when_they_are_asked_to(spare: str) -> None:
+    assert golc("check", spare).returncode == 0
+    done = golc("check", "--strict", spare)
+    assert done.returncode == 1
+    assert done.stderr == "checked 1 file: 2 warnings\n"
+
+
+def test_all_files_are_checked_whatever_is_wrong_with_one(tmp_path: Path) -> None:
+    broken = tmp_path / "broken.gl"
+    broken.write_bytes(b"domain d\nfluent \xff = true\n")
+    done = golc("check", str(tmp_path / "missing.gl"), str(broken), str(tmp_path), NAMES, DELIVERY)
+    assert done.returncode == 1
+    heads = [line for line in done.stdout.splitlines() if "[GL001]" in line]
+    assert [head.rpartition(": ")[2] for head in heads] == [
+        "there is no such file",
+        "byte 17 is 0xff",
+        "it is a directory",
+    ]
+    assert "unknown fluent `motoin`" in done.stdout
+    assert done.stderr.startswith("checked 5 files: ")
+
+
+def test_json_says_the_same(spare: str) -> None:
+    done = golc("check", "--format", "json", spare, DELIVERY)
+    found = json.loads(done.stdout)
+    assert (found["errors"], found["warnings"], len(found["findings"])) == (0, 2, 2)
+    assert found["findings"][0]["code"] == "GL027"
+    assert found["findings"][0]["span"] == {
+        "file": spare,
+        "line": 2,
+        "column": 7,
+        "end_line": 2,
+        "end_column": 12,
+    }
+
+
+def test_json_of_nothing_is_json() -> None:
+    assert json.loads(golc("check", "--format", "json", DELIVERY).stdout) == {
+        "findings": [],
+        "errors": 0,
+        "warnings": 0,
+    }
+
+
+def test_a_constant_may_be_replaced(tmp_path: Path) -> None:
+    path = tmp_path / "floors.gl"
+    path.write_text("domain d\nconst floors = 6\nfluent at: 1..floors = 6\naction go:\n    causes at := 1\n")
+    assert golc("check", "-D", "floors=9", str(path)).returncode == 0
+    done = golc("check", "-D", "floors = 5", str(path))
+    assert done.returncode == 1
+    assert "`6` is outside `1..5`" in done.stdout
+    done = golc("check", "-D", "flors=5", str(path))
+    assert done.returncode == 1
+    assert done.stdout.startswith(
+        "error[GL024]: `flors` is not declared, so that `-D` cannot replace it\n --> -D flors:1:1"
+    )
+    assert golc("check", "-D", "floors", str(path)).returncode == 2
+
+
+def test_quiet_says_only_what_is_wrong_and_verbose_says_more() -> None:
+    assert golc("check", "-q", DELIVERY).stderr == ""
+    assert "5 fluents, 9 actions" in golc("check", "-v", DELIVERY).stderr
+
+
+def test_color_is_for_those_who_ask(spare: str) -> None:
+    assert "\x1b[" not in golc("check", spare).stdout
+    assert "\x1b[1;33mwarning[GL027]" in golc("check", "--color", "always", spare).stdout
+
+
+def test_usage_errors_end_with_2() -> None:
+    assert golc("check").returncode == 2
+    assert golc("check", "--fromat", "json", DELIVERY).returncode == 2
+    assert golc("check", "--format", "xml", DELIVERY).returncode == 2
+
+
+def test_an_encoding_without_the_characters_is_no_obstacle(tmp_path: Path) -> None:
+    path = tmp_path / "wide.gl"
+    path.write_text('domain d\nfluent x = "日本"\n', encoding="utf-8")
+    done = golc("check", str(path), PYTHONIOENCODING="ascii")
+    assert done.returncode == 1
+    assert "\\u65e5\\u672c" in done.stdout
+
+
+def test_a_large_file_is_checked(tmp_path: Path) -> None:
+    path = tmp_path / "large.gl"
+    path.write_text("domain large\n" + "".join(f"fluent f{n}: 1..9 = {n % 9 + 1}\n" for n in range(1000)))
+    done = golc("check", "--strict", str(path))
+    assert done.stderr == "checked 1 file: 1000 warnings\n"
+
+
+def test_help_has_an_example() -> None:
+    done = golc("check", "--help")
+    assert done.returncode == 0
+    assert "golc check examples/delivery/delivery.gl" in done.stdout
