@@ -3,7 +3,7 @@
 How a page is read:
 
 - A ``golc`` block that begins with ``domain`` is a file without findings.
-- If a ``text`` block that begins with a finding follows, the file has exactly these findings.
+- If a ``text`` block that begins with a finding follows at once, the file has exactly these findings.
 - A line that ends in ``# planned`` is answered with "not supported yet"; a file that has one has no other findings.
 - Any other ``golc`` block is a part of a file, a part of a program, or expressions, and has to parse.
 - A block with a name behind its language (``golc garden.gl``) is saved under that name for the sessions below it, or
@@ -79,18 +79,18 @@ class Block:
 
 def blocks(page: Path) -> list[Block]:
     text = page.read_text(encoding="utf-8")
+    fences = list(FENCE.finditer(text))
     found: list[Block] = []
-    for match in reversed(list(FENCE.finditer(text))):
-        language, name, body = match.groups()
-        below = found[-1] if found else None
-        findings = below.text if below and below.language == "text" and _is_finding(below.text) else ""
-        line = text.count("\n", 0, match.start()) + 1
-        found.append(Block(page, line, language, name, body, findings if language == "golc" else ""))
-    return found[::-1]
+    for fence, below in zip(fences, [*fences, None][1:], strict=True):
+        language, name, body = fence.groups()
+        adjacent = below is not None and not text[fence.end() : below.start()].strip()
+        findings = below[3] if below and adjacent and language == "golc" and _is_finding(below) else ""
+        found.append(Block(page, text.count("\n", 0, fence.start()) + 1, language, name, body, findings))
+    return found
 
 
-def _is_finding(text: str) -> bool:
-    return re.match(r"(error|warning)\[GL\d+\]", text) is not None
+def _is_finding(fence: re.Match[str]) -> bool:
+    return fence[1] == "text" and re.match(r"(error|warning)\[GL\d+\]", fence[3]) is not None
 
 
 BLOCKS = [block for page in PAGES for block in blocks(page)]
