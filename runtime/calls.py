@@ -72,10 +72,14 @@ def read_value(theory: BasicActionTheory, type_: Type, where: Span, findings: Fi
 
 
 def example(theory: BasicActionTheory, exogenous: bool) -> str:
-    """A ground action of the theory to show in a message."""
-    candidates = [a for a in theory.actions.values() if a.exogenous == exogenous]
+    """A ground action of the theory to show in a message; an invented one if it has none."""
+    return one_of([action for action in theory.actions.values() if action.exogenous == exogenous]) or "press(1)"
+
+
+def one_of(candidates: Sequence[Action]) -> str | None:
+    """A ground action to show in a message, with arguments if any of them has some; None if there is none."""
     if not candidates:
-        return "press(1)"
+        return None
     action = max(candidates, key=lambda a: bool(a.parameters))
     return show_call(action.name, [_sample(p.type) for p in action.parameters])
 

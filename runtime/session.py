@@ -13,14 +13,14 @@ from pathlib import Path
 from golc.diagnostics import Diagnostic, Findings, Source, Span
 from golc.planning.planner import executable
 from golc.runtime.asking import ALL, REMEDIES, AskAboutFailure, AskBeforeActions, always
-from golc.runtime.calls import Call, example, read_value
+from golc.runtime.calls import Call, one_of, read_value
 from golc.runtime.clock import Clock
 from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Args, Device, Router
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, brick_maps, build_devices
 from golc.runtime.executive import Executive, Outcome
-from golc.runtime.exogenous import COMMANDS, Terminal, Timetable
+from golc.runtime.exogenous import COMMANDS, Terminal, Timetable, from_operator
 from golc.runtime.happenings import Observer, Remedy
 from golc.runtime.inbox import Inbox
 from golc.runtime.inbox import Source as EventSource
@@ -190,10 +190,9 @@ class _Session:
             title = self.voice.style.paint(BOLD, f"{self.theory.name}: {self.program}")
             self.voice.write(f"{MARGIN}{title} {where}".rstrip())
         if self.interactive:
-            self.say(
-                f"type an exogenous action such as {example(self.theory, exogenous=True)}, or one of "
-                + ", ".join(f"!{name}" for name in COMMANDS)
-            )
+            event = one_of([action for action in self.theory.actions.values() if from_operator(action)])
+            reports = "" if event is None else f"an exogenous action such as {event}, or "
+            self.say(f"type {reports}one of " + ", ".join(f"!{name}" for name in COMMANDS))
 
     def say(self, text: str) -> None:
         """Something good to know."""
