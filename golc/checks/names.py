@@ -101,9 +101,9 @@ def _loose_quantifiers(file: tree.File, findings: Findings) -> None:
     """``exists n: t. p(n) or q``: the quantifier takes in ``q``, which does not speak of ``n``."""
     for node in descendants(file):
         match node:
-            case tree.Quantifier(
-                kind="exists" | "forall", body=tree.Binary(op="and" | "or" | "implies" | "iff") as body
-            ):
+            case tree.Quantifier(kind="forall", body=tree.Binary(op="implies")):
+                pass  # a rule, whose conclusion need not speak of the variable
+            case tree.Quantifier(kind="exists" | "forall", body=tree.Binary(op="or" | "implies" | "iff") as body):
                 loose = body.right
                 bound = {binder.name.text for binder in node.binders}
                 if bound.isdisjoint(_mentioned(loose)) and not bound.isdisjoint(_mentioned(body.left)):

@@ -103,9 +103,7 @@ def home(context: Context, entry: Entry) -> Type:
         case tree.TypeDecl() as node:
             return context.type(context.declared.entry(node)) or BROKEN
         case tree.EnumType() as node:
-            if id(node) not in context.inline_types:
-                context.inline_types[id(node)] = elaborate_type(context, node)
-            return context.inline_types[id(node)]
+            return context.inline_types.get(id(node)) or elaborate_type(context, node)
         case _:
             return BROKEN
 
@@ -139,6 +137,7 @@ def _interval(context: Context, node: tree.IntervalType) -> Type:
 
 def _enumeration(context: Context, node: tree.EnumType) -> Type:
     found: dict[Value, str] = {}
+    declares = False
     for element in node.elements:
         if isinstance(element, tree.Number):
             found[element.value] = ""
@@ -147,7 +146,11 @@ def _enumeration(context: Context, node: tree.EnumType) -> Type:
         if entry is None or entry.kind is not Kind.SYMBOL:
             return BROKEN  # reported where the names are collected
         found[element.text] = _owner(entry)
-    return Enumeration(tuple(found.items()))
+        declares = declares or entry.node is node
+    type_ = Enumeration(tuple(found.items()))
+    if declares:
+        context.inline_types[id(node)] = type_
+    return type_
 
 
 def _owner(entry: Entry) -> str:

@@ -8,8 +8,8 @@ from collections.abc import Iterable
 def closest(word: str, candidates: Iterable[str]) -> str | None:
     """The candidate with the fewest typing slips between it and the word; the first one wins a tie.
 
-    None if all are far away. A slip is a letter too many, too few, wrong, or swapped with its neighbour; a third of the
-    letters may be wrong.
+    None if all are far away. A slip is a letter too many, too few, wrong, or swapped with its neighbour; one for every
+    four letters is allowed.
     """
     best, fewest = None, allowance(word) + 1
     for candidate in candidates:
@@ -22,7 +22,7 @@ def closest(word: str, candidates: Iterable[str]) -> str | None:
 
 def allowance(word: str) -> int:
     """How many slips a word of this length may have: none for a single letter, at most four."""
-    return min(4, (len(word) + 1) // 3)
+    return min(4, (len(word) + 2) // 4)
 
 
 def distance(a: str, b: str, limit: int) -> int:

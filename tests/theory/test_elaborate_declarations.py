@@ -161,3 +161,28 @@ def test_a_local_name_comes_before_a_declared_one(theory: Build) -> None:
 def test_actions_have_a_namespace_of_their_own(theory: Build) -> None:
     built = theory("fluent open = false\naction open:\n    poss not open\n    causes open := true\n")
     assert built.actions["open"].preconditions[0].args == (FluentTerm("open", (), type=BOOL),)
+
+
+def test_what_stands_in_place_of_a_name_declares_even_if_nothing_uses_it(theory: Build) -> None:
+    assert theory("action paint(c: {red, green})\n").symbols == {"red", "green"}
+
+
+def test_an_interval_that_cannot_be_counted_is_refused(found: Build) -> None:
+    text = f"const top = {2**70}\ntype vast = 0..top\nfluent far: vast = top\n"
+    assert [line.split()[1] for line in found(text)] == ["GL022"]
+
+
+def test_none_comes_before_a_range_that_is_not_listed(theory: Build) -> None:
+    fluent = theory(f"fluent far: (-{2**40})..{2**40}? = none\n").fluents["far"]
+    assert len(fluent.type.values) == 2**41 + 2
+    assert (fluent.type.values[0], fluent.type.values[1], fluent.type.values[-1]) == (None, -(2**40), 2**40)
+    assert fluent.type.values[:2] == (None, -(2**40))
+    assert 7 in fluent.type.values
+
+
+def test_a_text_with_syntax_errors_is_elaborated_as_far_as_it_goes(found: Build) -> None:
+    text = (
+        "type phase = {moving stopped}\nfluent motion phase = moving\naction go:\n    poss motion = stopped and lit\n"
+    )
+    assert [line.split()[1] for line in found(text)][-1] == "GL012"
+    assert [line.partition(" ")[2] for line in found(text)][-1] == "GL012 unknown name `lit`"
