@@ -282,7 +282,7 @@ class Brick:
         That is needed after something was sent twice, since the brick may answer twice, and before a message equal to
         the one before, which a brick that remembers could take for the same one sent again.
         """
-        looks_old = self._remembers and action.parts[0] == self._exchange.last_sent
+        looks_old = self._remembers and self._exchange.may_be_last(action.parts[0])
         if not looks_old and not self._exchange.stale:
             return
         for _ in range(PROBES):

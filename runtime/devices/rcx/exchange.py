@@ -57,15 +57,15 @@ class Exchange:
         self._remembers = remembers
         self._last_sent: int | None = None
         self._last_sent_at = float("-inf")
+        self._unsettled: set[int] = set()
         self._follows_itself = False
         self._answered = True
         self._late_digits: list[int] = []
         self._late_until = float("-inf")
 
-    @property
-    def last_sent(self) -> int | None:
-        """The message that this brick was sent last."""
-        return self._last_sent
+    def may_be_last(self, number: int) -> bool:
+        """Whether the brick may have heard this message last: the last that it answered, or one sent since then."""
+        return number in self._unsettled
 
     @property
     def asks(self) -> int:
@@ -75,6 +75,7 @@ class Exchange:
     def send(self, number: int) -> float:
         """Send ``number``; the simulated time at which its last bit is out."""
         self._last_sent = number
+        self._unsettled.add(number)
         self._answered = True
         self._last_sent_at = self._tower.send(number)
         return self._last_sent_at
@@ -90,6 +91,7 @@ class Exchange:
         deadline = sent + wait
         while (heard := self._tower.receive(deadline)) is not None:
             if heard in accept:
+                self._unsettled = {number}
                 self.nonsense.clear()
                 if again and number != self._numbers.request:
                     self._drop_twins(heard)
