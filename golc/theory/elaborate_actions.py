@@ -6,9 +6,10 @@ from golc.diagnostics import Code, Label, Span
 from golc.syntax import tree
 from golc.theory.context import Context, Signature, first_line
 from golc.theory.elaborate_names import unknown_fluent
-from golc.theory.elaborate_terms import arguments, bind, fits, fitting, formula, term
+from golc.theory.elaborate_terms import arguments, bind, fitting, formula, term
 from golc.theory.elaborate_types import LARGEST, elaborate_type, parameters
 from golc.theory.elaborate_values import closed_term, parameter_scope
+from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN, size
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.suggest import closest

@@ -9,8 +9,9 @@ from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree
 from golc.theory.closed import NoValueError
 from golc.theory.context import Context, Signature
-from golc.theory.elaborate_terms import fits, term
+from golc.theory.elaborate_terms import term
 from golc.theory.elaborate_types import elaborate_type, parameters
+from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN, describe, size
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import DefinedTerm, FluentTerm, Literal, PossTerm, Term, subterms

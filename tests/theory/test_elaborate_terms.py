@@ -126,6 +126,11 @@ def test_symbols_are_ordered_as_declared(term: Build) -> None:
     assert term("at < 3").order is None
 
 
+def test_a_subset_has_the_order_of_the_enumeration_that_declares_it(theory: Build) -> None:
+    built = theory(f"{HEAD}fluent still: {{stopped, moving}} = stopped\ndefine it := still < moving\n")
+    assert built.definitions["it"].body.order == ("moving", "stopped")
+
+
 def test_poss_asks_for_the_precondition_of_an_action(term: Build) -> None:
     assert term("poss(go(at))") == PossTerm("go", (AT,), type=BOOL)
 
