@@ -223,6 +223,14 @@ def test_the_same_action_anew_is_not_sent_before_that_poll_is_answered(talk: Scr
     assert line.numbers == [36] + [83] * 6
 
 
+def test_a_poll_that_was_lost_does_not_mark_off(talk: Script) -> None:
+    line, brick = talk({36: [[64]], 83: [[], [84]]})
+    brick.perform(4)
+    assert brick.poll() is None
+    brick.perform(4)
+    assert line.numbers == [36, 83, 83, 36]
+
+
 def test_a_value_whose_second_continue_was_sent_again_is_asked_for_again(talk: Script) -> None:
     line, brick = talk({36: [[76], [77]], 82: [[76], [], [65], [77], [65]]})
     assert brick.perform(4) == 109
