@@ -24,7 +24,7 @@ import click
 import pytest
 
 from golc.cli import COMMANDS, cli
-from golc.diagnostics import Code, Diagnostic, Findings, Source
+from golc.diagnostics import Code, Findings, Source
 from golc.loading import examine
 from golc.rendering import render
 from golc.syntax.parse import parse_expression, parse_file
@@ -74,7 +74,7 @@ class Block:
             file.write(self.text)
 
     def __str__(self) -> str:
-        return f"{self.page.name}:{self.line}"
+        return f"{_name(self.page)}:{self.line}"
 
 
 def blocks(page: Path) -> list[Block]:
@@ -94,6 +94,10 @@ def _is_finding(fence: re.Match[str]) -> bool:
 
 
 BLOCKS = [block for page in PAGES for block in blocks(page)]
+
+
+def _name(page: Path) -> str:
+    return str(page.relative_to(ROOT))
 
 
 def _ids(found: list[Block]) -> list[str]:
@@ -116,11 +120,7 @@ def test_domain_has_the_findings_that_the_page_shows(
         assert sorted({finding.span.line for finding in found}) == planned
         assert {finding.code for finding in found} == {Code.UNSUPPORTED}
     else:
-        assert "\n".join(map(_rendered, found)) == block.findings
-
-
-def _rendered(finding: Diagnostic) -> str:
-    return render(finding) + "\n"
+        assert "\n\n".join(map(render, found)) == block.findings.rstrip()
 
 
 @pytest.mark.parametrize("block", PARTS, ids=_ids(PARTS))
@@ -140,7 +140,7 @@ def _is_expression(text: str) -> bool:
     return parse_expression(Source("part", text), findings) is not None and not findings.diagnostics
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=_name)
 def test_sessions_run_as_the_page_shows(page: Path, terminal: Terminal) -> None:
     for block in blocks(page):
         if block.name:
@@ -150,7 +150,7 @@ def test_sessions_run_as_the_page_shows(page: Path, terminal: Terminal) -> None:
                 try:
                     terminal.perform(command, expected)
                 except AssertionError as error:
-                    pytest.fail(f"{page.name}:{line}: $ {command}\n{error}", pytrace=False)
+                    pytest.fail(f"{_name(page)}:{line}: $ {command}\n{error}", pytrace=False)
 
 
 def _commands(block: Block) -> Iterator[tuple[int, str, list[str]]]:
@@ -161,7 +161,7 @@ def _commands(block: Block) -> Iterator[tuple[int, str, list[str]]]:
         yield block.line + 1 + start, lines[start][2:].split("  #")[0].rstrip(), lines[start + 1 : end]
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+@pytest.mark.parametrize("page", PAGES, ids=_name)
 def test_links_lead_somewhere(page: Path) -> None:
     prose = FENCE.sub("", page.read_text(encoding="utf-8"))
     links = [link for link in LINK.findall(prose) if "://" not in link]
