@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Label, Span
 from golc.syntax import tree
-from golc.theory.context import Context, Signature, first_line
+from golc.theory.context import Context, Signature
 from golc.theory.elaborate_names import unknown_fluent
 from golc.theory.elaborate_terms import arguments, bind, fitting, formula, term
 from golc.theory.elaborate_types import LARGEST, elaborate_type, parameters
@@ -238,5 +238,3 @@ def unsupported_declaration(context: Context, node: tree.Declaration) -> None:
             context.unsupported("`prune` is", name.span)
         case tree.Scenario(name=name):
             context.unsupported("`scenario` is", name.span)
-        case _:
-            context.unsupported("this declaration is", first_line(node.span))
