@@ -161,6 +161,21 @@ def _commands(block: Block) -> Iterator[tuple[int, str, list[str]]]:
         yield block.line + 1 + start, lines[start][2:].split("  #")[0].rstrip(), lines[start + 1 : end]
 
 
+@pytest.mark.parametrize(
+    ("command", "shown"),
+    [
+        ("golc plan examples/sorter/sorter.gl sort_one", ["feed", "look", "push(right)", "1 plan"]),
+        ("golc plan examples/sorter/sorter.gl sort_one", ["feed", "look", "push(left)"]),
+        ("golc plan examples/sorter/sorter.gl sort_one", ["…", "push(left)", "1 plan", "2 plans"]),
+        ("echo feed | cat", ["push"]),
+    ],
+    ids=["another line", "a line too few", "a line too many", "in a shell"],
+)
+def test_what_a_command_does_not_write_is_told(command: str, shown: list[str], terminal: Terminal) -> None:
+    with pytest.raises(AssertionError, match="but came"):
+        terminal.perform(command, shown)
+
+
 @pytest.mark.parametrize("page", PAGES, ids=_name)
 def test_links_lead_somewhere(page: Path) -> None:
     prose = FENCE.sub("", page.read_text(encoding="utf-8"))
