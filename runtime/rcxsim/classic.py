@@ -21,6 +21,7 @@ MORE_TIME_AFTER = 2.5
 """Seconds after the host's last part at which a behaviour that still runs asks for more time."""
 PATIENCE = 11.0
 """Seconds without a word in the middle of a number after which it is given up: three repetitions were lost."""
+NEVER = float("inf")
 PANIC_EVERY = 1.0
 """Seconds from one cry of panic to the next."""
 
@@ -90,7 +91,6 @@ class ClassicProgram:
         self._received: list[int] = []  # the digits of an action number so far
         self._rest: list[int] = []  # what is still to be sent of a number
         self._is_event = False
-        self._acknowledged = False
         self._deadline = 0.0
         self._last = (0, float("-inf"))
         self._answer: Sequence[int] = ()
@@ -111,7 +111,8 @@ class ClassicProgram:
             return ()
         if self._sent_again(message, now):
             self._trace.tell(now, "repeated", message=message)
-            self._deadline = now + (PATIENCE if self._phase is Phase.SENDING else MORE_TIME_AFTER)
+            self._deadline = now + MORE_TIME_AFTER
+            self._start_patience(now)
         else:
             self._answer = self._take(message, now)
         self._last = (message, now)
@@ -126,7 +127,9 @@ class ClassicProgram:
             self._phase = Phase.ASKING
             self._answer = (self._wire.more_time,)
         elif self._phase is Phase.SENDING and now >= self._deadline:
-            return self._unheard(now)
+            self._trace.tell(now, "panicked", why="the host stopped acknowledging in the middle of a number")
+            self._phase = Phase.PANIC
+            return self._panic(now)
         elif self._phase is Phase.PANIC and now >= self._deadline:
             return self._panic(now)
         else:
@@ -136,10 +139,10 @@ class ClassicProgram:
 
     def due(self) -> float | None:
         """When ``tick`` is wanted next."""
-        times = [] if self._phase not in (Phase.RUNNING, Phase.SENDING, Phase.PANIC) else [self._deadline]
-        if (due := self._behaviours.due()) is not None:
-            times.append(due)
-        return min(times, default=None)
+        timed = self._phase in (Phase.RUNNING, Phase.SENDING, Phase.PANIC)
+        due = self._behaviours.due()
+        earliest = min(self._deadline if timed else NEVER, NEVER if due is None else due)
+        return None if earliest == NEVER else earliest
 
     def _abort(self, now: float) -> Sequence[int]:
         self._trace.tell(now, "aborted", phase=self._phase.value)
@@ -206,7 +209,6 @@ class ClassicProgram:
         if self._phase is Phase.ASKING:
             answer = self._send_value()
         elif self._phase is Phase.SENDING:
-            self._acknowledged = True
             answer = (self._rest.pop(0),)
             if not self._rest:
                 self._phase = Phase.READY
@@ -223,22 +225,13 @@ class ClassicProgram:
 
     def _begin_sending(self, symbols: list[int]) -> Sequence[int]:
         self._rest = symbols[1:]
-        self._acknowledged = False
         self._phase = Phase.SENDING if self._rest else Phase.READY
         return (symbols[0],)
 
     def _start_patience(self, now: float) -> None:
+        """A value that is not fetched is a reason to panic; an event is kept, whatever the host does first."""
         if self._phase is Phase.SENDING:
-            self._deadline = now + PATIENCE
-
-    def _unheard(self, now: float) -> Sequence[int]:
-        """The host does not acknowledge. Of an event it may have heard nothing at all: the event waits for a poll."""
-        if self._is_event and not self._acknowledged:
-            self._phase = Phase.READY
-            return ()
-        self._trace.tell(now, "panicked", why="the host stopped acknowledging in the middle of a number")
-        self._phase = Phase.PANIC
-        return self._panic(now)
+            self._deadline = NEVER if self._is_event else now + PATIENCE
 
     def _panic(self, now: float) -> Sequence[int]:
         self._deadline = now + PANIC_EVERY

@@ -209,6 +209,13 @@ def test_event_waits_while_the_host_does_something_else(bench: Bench) -> None:
     assert bench.say(POLL) == [51]
 
 
+def test_event_is_kept_for_a_host_that_is_hard_to_hear(bench: Bench) -> None:
+    bench.hooks.events.append(3)
+    assert bench.say(POLL) == [51]
+    bench.wait(25)
+    assert bench.say(CONTINUE) == [32]
+
+
 def test_last_digit_of_an_event_that_was_lost_comes_again(bench: Bench) -> None:
     bench.hooks.events += [3, 20]
     bench.say(POLL)
