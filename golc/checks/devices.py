@@ -13,6 +13,7 @@ from golc.nqc.numbering import implied, number_device
 from golc.nqc.userfiles import scan_file, user_file
 from golc.nqc.wire import DEFAULTS, LAST_RANGE
 from golc.nqc.words import LONGEST_NAME, complaint
+from golc.theory.fitting import size
 from golc.theory.suggest import closest
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, ByStart, Device, Fixed, Parameter
 
@@ -150,7 +151,7 @@ def _instances(slots: Iterable[Parameter | Fixed]) -> int | None:
         if isinstance(slot, Parameter):
             if not slot.type.finite:
                 return None
-            count *= len(slot.type.values)
+            count *= size(slot.type)
     return count
 
 

@@ -199,9 +199,10 @@ def _compile(console: Console, generated: Generated, target: Target) -> Compiled
     from golc.nqc.toolchain import compile_program
 
     compiled = compile_program(generated.path, generated.folders, target, generated.actions.device.span)
-    console.out(f"\ncompiled {_short(compiled.path)} for firmware {target.firmware} ({target.option})\n")
-    for line in compiled.usage:
-        console.out(_usage(line))
+    if console.verbosity >= 0:
+        console.out(f"\ncompiled {_short(compiled.path)} for firmware {target.firmware} ({target.option})\n")
+        for line in compiled.usage:
+            console.out(_usage(line))
     return compiled
 
 

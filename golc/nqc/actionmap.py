@@ -10,8 +10,9 @@ from functools import cached_property
 
 from golc.diagnostics import NOWHERE, DeviceError, Span
 from golc.nqc.wire import Wire
+from golc.theory.fitting import size
 from golc.theory.theory import ByCall, ByPrompt, ByStart, Device, Fixed, Parameter
-from golc.theory.types import Interval, Type, Value, show, show_call
+from golc.theory.types import Interval, Optional, Type, Value, show, show_call
 
 PROTOCOL = 1
 """The version of the wire format, part of the fingerprint."""
@@ -32,7 +33,7 @@ def value_number(type_: Type, value: Value) -> int | None:
         case bool() | int():
             return int(value)
         case str() if type_.finite:
-            return [v for v in type_.values if v is not None].index(value)
+            return (type_.base if isinstance(type_, Optional) else type_).values.index(value)
         case _:
             return None
 
@@ -74,7 +75,7 @@ class Entry:
                 case Parameter(type=type_):
                     if value not in type_:
                         return None
-                    index = index * len(type_.values) + type_.values.index(value)
+                    index = index * size(type_) + type_.values.index(value)
         return index
 
     def arguments(self, index: int) -> tuple[Value, ...]:
@@ -85,7 +86,7 @@ class Entry:
                 case Fixed(value=fixed):
                     values.append(fixed)
                 case Parameter(type=type_):
-                    index, place = divmod(index, len(type_.values))
+                    index, place = divmod(index, size(type_))
                     values.append(type_.values[place])
         return tuple(reversed(values))
 
@@ -221,6 +222,8 @@ def _spelt(type_: Type) -> str:
     match type_:
         case Interval(low=low, high=high):
             return f"{low}..{high}"
+        case Optional(base=base):
+            return f"{_spelt(base)}?"
         case _ if type_.finite:
             return "{" + ", ".join(map(show, type_.values)) + "}"
         case _:
@@ -238,7 +241,7 @@ def _value(type_: Type, number: int) -> Value:
     """The value of a type that a number stands for, or None."""
     if "int" in type_.kinds and number in type_:
         return number
-    if type_.finite:
+    if type_.finite and type_.kinds != {"int"}:
         for value in type_.values:
             if value_number(type_, value) == number:
                 return value

@@ -8,6 +8,7 @@ from itertools import pairwise
 
 from golc.nqc.actionmap import ActionMap, Entry, results, value_number
 from golc.nqc.behaviours import behaviour_name
+from golc.theory.fitting import size
 from golc.theory.theory import BasicActionTheory, ByCall, ByStart, Fixed, Parameter
 from golc.theory.types import Type, show
 
@@ -154,7 +155,7 @@ def _several(entry: Entry, types: Sequence[Type], index: str) -> Iterator[str]:
     """Take the place in the range apart, the last argument first; the first one that varies keeps what remains."""
     variables = [f"golc_arg{place}" for place in range(1, len(entry.args) + 1)]
     slots = list(zip(variables, entry.args, types, strict=True))
-    varying = [(variable, len(slot.type.values)) for variable, slot, _ in slots if isinstance(slot, Parameter)]
+    varying = [(variable, size(slot.type)) for variable, slot, _ in slots if isinstance(slot, Parameter)]
     rest = varying[0][0]
     yield f"{rest} = {index};"
     for variable, count in reversed(varying[1:]):

@@ -10,8 +10,9 @@ from itertools import pairwise
 from golc.diagnostics import Code, Findings, Label
 from golc.nqc.actionmap import DEFAULT_TIMEOUT, LARGEST, ActionMap, Entry, value_number
 from golc.nqc.wire import wire_of
+from golc.theory.fitting import size
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, Device, Parameter
-from golc.theory.types import Interval, Type, show
+from golc.theory.types import Interval, Optional, Type, show
 
 __all__ = ["ActionMap", "Entry", "implied", "number_device"]
 
@@ -64,7 +65,7 @@ def _draft(theory: BasicActionTheory, binding: Binding, findings: Findings) -> E
             return None
     return Entry(
         first=-1 if binding.number is None else binding.number,
-        count=math.prod(len(slot.type.values) for slot in binding.args if isinstance(slot, Parameter)),
+        count=math.prod(size(slot.type) for slot in binding.args if isinstance(slot, Parameter)),
         action=action.name,
         exogenous=action.exogenous,
         behaviour=None if action.exogenous else binding.behaviour or ByCall(action.name, binding.span),
@@ -137,7 +138,9 @@ def _fits(type_: Type, low: int) -> bool:
     """Whether each value of a finite type has a number of its own from ``low`` to the largest."""
     if isinstance(type_, Interval):
         return low <= type_.low and type_.high <= LARGEST
-    if len(type_.values) > 2 * (LARGEST + 1):
+    if isinstance(type_, Optional):
+        return False
+    if size(type_) > 2 * (LARGEST + 1):
         return False  # more values than there are numbers
     numbers = [value_number(type_, value) for value in type_.values]
     return len(set(numbers)) == len(numbers) and all(n is not None and low <= n <= LARGEST for n in numbers)
