@@ -154,6 +154,7 @@ class Executive(Intake):
         """Have a device do an action and apply its effects; False if it was not done, or is to be decided anew."""
         if self._policy.confirm is not None and not self._confirmed(label, self._policy.confirm):
             return False
+        after = self.dynamics.progress(self.state, label.action, label.args)  # an error of the theory moves no robot
         device = self._router.device(label.action, label.args)
         began = self._begin(label, device)
         self._engaged = device.interrupt
@@ -164,7 +165,7 @@ class Executive(Intake):
             self._cope(label, error)
             return False
         self._engaged = None
-        self._apply(label, results, began)
+        self._apply(label, after, results, began)
         return True
 
     def _begin(self, label: Act, device: Device) -> float:
@@ -175,10 +176,9 @@ class Executive(Intake):
         self.tell(Begun(began, label.action, label.args, device.label(label.action, label.args), label.span))
         return began
 
-    def _apply(self, label: Act, results: Args, began: float) -> None:
+    def _apply(self, label: Act, after: State, results: Args, began: float) -> None:
         """The effects of an action that was done, then its sensing results."""
         action, args, before = label.action, label.args, self.state
-        after = self.dynamics.progress(before, action, args)
         surprises: Sequence[Surprise] = ()
         if results:
             after, surprises = self.dynamics.assimilate(after, action, args, results)

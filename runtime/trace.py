@@ -194,7 +194,8 @@ class Trace:
         good = ended.end in (End.FINAL, End.IDLE, End.STOPPED)
         if self._verbosity < 0 and good:
             return
-        counts = f"{ended.actions} actions and {ended.exogenous} exogenous actions in {ended.time:.1f} s"
+        own, events = _number(ended.actions, "action"), _number(ended.exogenous, "exogenous action")
+        counts = f"{own} and {events} in {ended.time:.1f} s"
         yield ""
         yield self._row(ended.time, GREEN if good else RED, f"end: {ended.message}")
         yield MARGIN + self._style.paint(DIM, counts)
@@ -238,3 +239,7 @@ def _family(name: str, known: list[tuple[tuple[Value, ...], Value]]) -> str:
 
 def _arguments(args: tuple[Value, ...]) -> str:
     return show(args[0]) if len(args) == 1 else show_call("", args)
+
+
+def _number(count: int, what: str) -> str:
+    return f"{count} {what}{'s' * (count != 1)}"
