@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from golc.diagnostics import DeviceError, Diagnostic, Span
+from golc.diagnostics import DeviceError, Diagnostic, Span, counted
 from golc.runtime.happenings import (
     Begun,
     Blocked,
@@ -194,7 +194,7 @@ class Trace:
         good = ended.end in (End.FINAL, End.IDLE, End.STOPPED)
         if self._verbosity < 0 and good:
             return
-        own, events = _number(ended.actions, "action"), _number(ended.exogenous, "exogenous action")
+        own, events = counted(ended.actions, "action"), counted(ended.exogenous, "exogenous action")
         counts = f"{own} and {events} in {ended.time:.1f} s"
         yield ""
         yield self._row(ended.time, GREEN if good else RED, f"end: {ended.message}")
@@ -239,7 +239,3 @@ def _family(name: str, known: list[tuple[tuple[Value, ...], Value]]) -> str:
 
 def _arguments(args: tuple[Value, ...]) -> str:
     return show(args[0]) if len(args) == 1 else show_call("", args)
-
-
-def _number(count: int, what: str) -> str:
-    return f"{count} {what}{'s' * (count != 1)}"
