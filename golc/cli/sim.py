@@ -132,7 +132,7 @@ def _teller(console: Console) -> Any:
         if text is not None and console.verbosity >= 0:
             console.err(f"{record['t']:9.3f} s  " + text.format(**record))
         elif console.verbosity > 0:
-            details = "  ".join(f"{key} {value}" for key, value in record.items() if key not in ("t", "what") and value)
-            console.err(f"{record['t']:9.3f} s  {record['what']:<10} {details}")
+            details = [f"{key} {value}" for key, value in record.items() if key not in ("t", "what") and value != {}]
+            console.err(f"{record['t']:9.3f} s  {record['what']:<10} " + "  ".join(details))
 
     return tell
