@@ -156,8 +156,11 @@ class Executive(Intake):
             return False
         after = self.dynamics.progress(self.state, label.action, label.args)  # an error of the theory moves no robot
         device = self._router.device(label.action, label.args)
-        began = self._begin(label, device)
         self._engaged = device.interrupt
+        if self._inbox.commanded:  # since the decision, when nobody was engaged yet whom it could have interrupted
+            self._engaged = None
+            return False
+        began = self._begin(label, device)
         try:
             results = device.perform(label.action, label.args)
         except DeviceError as error:
