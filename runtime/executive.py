@@ -40,6 +40,7 @@ from golc.runtime.happenings import (
 from golc.runtime.inbox import Inbox, Source
 from golc.runtime.intake import Intake
 from golc.runtime.policy import Policy
+from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
 from golc.situation.layout import State
 from golc.theory.types import show, show_call
@@ -103,11 +104,12 @@ class Executive(Intake):
     def _finish(self, opened: Sequence[Device], end: End, message: str) -> None:
         """Stop everything, then tell; an observer that fails now can keep nobody from being told."""
         self._engaged = None
-        unstopped = release(self._sources, opened)
-        ended = Ended(self.clock.now(), end, message, self.state, self.actions, self.exogenous, unstopped)
-        for observer in self.observers:
-            with suppress(OSError, DeviceError):
-                observer(ended)
+        with undisturbed():
+            unstopped = release(self._sources, opened)
+            ended = Ended(self.clock.now(), end, message, self.state, self.actions, self.exogenous, unstopped)
+            for observer in self.observers:
+                with suppress(OSError, DeviceError):
+                    observer(ended)
 
     def _loop(self, node: Node) -> tuple[End, str]:
         items, final, decide = self._inbox.items, self.machine.final, self.machine.decide
