@@ -182,7 +182,9 @@ def test_errors_that_nobody_can_store_leave_the_exit_code(spare: str, full: Path
     with full.open("w") as stderr:
         command = [sys.executable, "-m", "golc", "check"]
         assert subprocess.run(command, stderr=stderr, timeout=60, check=False).returncode == 2
-        done = subprocess.run([*command, "--strict", spare], stdout=subprocess.DEVNULL, stderr=stderr, timeout=60, check=False)
+        done = subprocess.run(
+            [*command, "--strict", spare], stdout=subprocess.DEVNULL, stderr=stderr, timeout=60, check=False
+        )
         assert done.returncode == 1
 
 
