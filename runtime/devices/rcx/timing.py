@@ -34,6 +34,11 @@ class Timing:
     """Number of meaningless messages in a row that are ignored."""
     abort: float = 4.0
     """Time in which the brick has to confirm an abort."""
+    abort_sends: int = 3
+    """Number of times that an abort is sent before the brick is asked whether it is there: that it answers then does
+    not show which of them it has heard."""
+    abort_pause: float = 0.1
+    """Time for the brick to read one abort before the next."""
 
 
 @dataclass
