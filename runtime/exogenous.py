@@ -13,12 +13,13 @@ from collections.abc import Mapping
 from typing import Literal, cast
 
 from golc.diagnostics import Code, Diagnostic, Findings, Source, Span
-from golc.runtime.calls import Call, did_you_mean, read_exogenous
+from golc.runtime.calls import Call, read_exogenous
 from golc.runtime.clock import Clock
 from golc.runtime.desk import Desk
 from golc.runtime.happenings import Begun, Happening
 from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Reply, Report, end_thread, reporting_thread
 from golc.runtime.schedule import Player, Schedule
+from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory
 
 COMMANDS: Mapping[str, str] = {

@@ -14,7 +14,7 @@ from golc.nqc.userfiles import scan_file, user_file
 from golc.nqc.wire import DEFAULTS, LAST_RANGE
 from golc.nqc.words import LONGEST_NAME, complaint
 from golc.theory.fitting import size
-from golc.theory.suggest import closest
+from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, ByStart, Device, Fixed, Parameter
 
 RCX = "rcx"
@@ -70,12 +70,11 @@ def _check_settings(device: Device, findings: Findings) -> bool:
         rule = SETTINGS.get(setting.name) if device.kind == RCX else None
         if rule is None:
             known = SETTINGS if device.kind == RCX else ()
-            similar = closest(setting.name, known)
             findings.error(
                 Code.DEVICE_SETTING,
                 f"a device `{device.kind}` has no setting `{setting.name}`",
                 setting.span,
-                help=f"did you mean `{similar}`?" if similar else f"there are {', '.join(known) or 'none'}",
+                help=did_you_mean(setting.name, known) or f"there are {', '.join(known) or 'none'}",
             )
         elif not rule.allows(setting.value):
             findings.error(
