@@ -15,6 +15,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
+from golc.planning.limits import GivenUpSearchError
 from golc.planning.planner import Executable
 from golc.program.blame import Blocked as Why
 from golc.program.circles import CIRCLES, runs_in_circles
@@ -73,6 +74,7 @@ class Executive(Intake):
         super().__init__(executable.dynamics, inbox, router.devices, policy or Policy(), clock)
         self.machine = executable.machine
         self._node = executable.node
+        self._give_up = executable.look_ahead.give_up
         self._router = router
         self._sources = tuple(sources)
         events = [action for action in self.dynamics.theory.actions.values() if action.exogenous]
@@ -112,7 +114,7 @@ class Executive(Intake):
                     observer(ended)
 
     def _loop(self, node: Node) -> tuple[End, str]:
-        items, final, decide = self._inbox.items, self.machine.final, self.machine.decide
+        items, final, decide, give_up = self._inbox.items, self.machine.final, self.machine.decide, self._give_up
         quiet = 0
         while True:
             if items and self.take_in():
@@ -120,7 +122,13 @@ class Executive(Intake):
                 self._failed.clear()
             if self._verdict is not None:
                 return self._verdict
-            choice = decide(node, self.state, self._failed)
+            self._engaged = give_up
+            try:
+                choice = decide(node, self.state, self._failed)
+            except GivenUpSearchError:
+                continue
+            finally:
+                self._engaged = None
             if choice is None:
                 if final(node, self.state):
                     return End.FINAL, "the program is final"

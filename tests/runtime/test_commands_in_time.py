@@ -49,3 +49,36 @@ def test_an_action_does_not_begin_after_a_command_that_came_while_it_was_decided
 
     assert run.run().end is End.STOPPED
     assert run.story() == []
+
+
+ENDLESS = """
+domain d
+fluent x: int = 0
+action inc:
+    causes x := x + 1
+proc control:
+    search:
+        star:
+            inc
+        test x < 0
+"""
+
+
+def test_a_search_without_end_is_given_up_for_a_command(start: Start) -> None:
+    run = start(ENDLESS)
+    dynamics, looked = run.executive.dynamics, [0]
+    progress = dynamics.progress
+    replies: list[object] = []
+
+    def counted(*args: Any) -> Any:
+        looked[0] += 1
+        if looked[0] == 1000:
+            run.inbox.put(Command("state", "test", replies.append))
+            assert replies == [{"x": 0}]
+            run.inbox.put(stop())
+        return progress(*args)
+
+    dynamics.progress = counted
+
+    assert run.run().end is End.STOPPED
+    assert run.story() == []
