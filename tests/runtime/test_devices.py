@@ -265,7 +265,7 @@ def test_an_interrupt_of_the_run_passes_through_a_function(devices: Devices) -> 
     ("python", "message"),
     [
         (None, "cannot read the Python file"),
-        ("def see(:", "`the file` failed at"),
+        ("def see(:", "loading helpers.py failed at"),
         ("import nothing_of_this_name", "No module named 'nothing_of_this_name'"),
         (HELPERS.replace("def see", "def sees"), "has no function `see`"),
         (HELPERS.replace("def see", "measure = 3\ndef see").replace("def measure", "def m"), "`measure` in"),
