@@ -335,13 +335,6 @@ def test_an_action_that_no_device_does_is_an_error(desk: Desk, unchecked: Callab
         router.device("greet", ("right",))
 
 
-def test_nothing_can_be_sensed_by_nobody(desk: Desk, unchecked: Callable[[str], BasicActionTheory]) -> None:
-    theory = unchecked(DOMAIN + "device self\n")
-
-    with pytest.raises(UserError, match="`look` senses, but the device `self` cannot answer"):
-        build_devices(theory, Surroundings(desk, lambda message, args: "", None))
-
-
 def test_a_brick_needs_a_port(delivery: BasicActionTheory, desk: Desk) -> None:
     with pytest.raises(DeviceError, match="has no port"):
         build_devices(delivery, Surroundings(desk, lambda message, args: "", None))
