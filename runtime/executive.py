@@ -46,6 +46,9 @@ from golc.situation.dynamics import Surprise
 from golc.situation.layout import State
 from golc.theory.types import show, show_call
 
+A_MOMENT = 0.05
+"""Real seconds after which a run that would be idle asks again whether a device still has something to report."""
+
 
 @dataclass(frozen=True)
 class Outcome:
@@ -167,12 +170,13 @@ class Executive(Intake):
         after = self.dynamics.progress(self.state, label.action, label.args)  # an error of the theory moves no robot
         device = self._router.device(label.action, label.args)
         self._engaged = device.interrupt
-        if self._inbox.commanded:  # since the decision, when nobody was engaged yet whom it could have interrupted
-            self._engaged = None
-            return False
-        began = self._begin(label, device)
         try:
-            results = device.perform(label.action, label.args)
+            with device.free():
+                if self._inbox.items:  # something has happened since the decision
+                    self._engaged = None
+                    return False
+                began = self._begin(label, device)
+                results = device.perform(label.action, label.args)
         except DeviceError as error:
             self._engaged = None
             self._cope(label, error)
@@ -277,10 +281,12 @@ class Executive(Intake):
             if items:
                 if self.take_in():
                     return True
-            elif (not self._open() and not items) or not self._inbox.wait(
-                None if deadline is None else max(0.0, deadline - time.monotonic())
-            ):
+            elif not self._open() and not items:
                 return False
+            elif not self._inbox.wait(None if deadline is None else max(0.0, deadline - time.monotonic())):
+                if not any(device.polling for device in self._devices):
+                    return bool(items) and self.take_in()
+                deadline = time.monotonic() + A_MOMENT
         return False
 
     def _open(self) -> tuple[str, ...]:

@@ -54,5 +54,4 @@ class Poller:
             due[device] = time.monotonic() + self._clock.real(device.poll_interval or 0.0)
 
     def _poll(self, device: Device) -> None:
-        for action, args in device.poll():
-            self._inbox.put(Report(action, args, device.name))
+        device.poll(lambda action, args: self._inbox.put(Report(action, args, device.name)))

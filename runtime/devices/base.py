@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from typing import TypeAlias
 
 from golc.diagnostics import Code, DeviceError, Diagnostic, UserError
@@ -10,6 +11,8 @@ from golc.theory.theory import BasicActionTheory, Binding, Fixed
 from golc.theory.types import Value, show_call
 
 Args: TypeAlias = tuple[Value, ...]
+
+_FREE = nullcontext()
 
 _REMEMBERED = 10_000
 """How many ground actions the router remembers: arguments of type ``int`` are without end."""
@@ -22,10 +25,12 @@ class GivenUpError(DeviceError):
 class Device:
     """Something that performs actions; every method raises ``DeviceError`` where the world is in the way.
 
-    ``poll_interval`` is the time in seconds between two polls, or none if the device reports nothing.
+    ``poll_interval`` is the time in seconds between two polls, or none if the device reports nothing. ``polling``:
+    whether a poll is under way, so that something may be reported any moment.
     """
 
     poll_interval: float | None = None
+    polling = False
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -45,9 +50,15 @@ class Device:
         """Have the action done; returns its sensing results, one for each ``senses``, when it is done."""
         raise NotImplementedError
 
-    def poll(self) -> list[tuple[str, Args]]:
-        """The exogenous actions that have occurred since the last poll, in order."""
-        return []
+    def free(self) -> AbstractContextManager[None]:
+        """Wait until the device can begin an action, and keep it free of anything else until it has been done.
+
+        Whatever it had to report until then has been reported. Raises ``GivenUpError`` if it is interrupted.
+        """
+        return _FREE
+
+    def poll(self, report: Callable[[str, Args], None]) -> None:
+        """Report the exogenous actions that have occurred since the last poll, in order, each as it is fetched."""
 
     def interrupt(self) -> None:
         """Make a ``perform`` under way raise ``GivenUpError`` soon; called from other threads."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import asdict
 
 from golc.diagnostics import DeviceError
@@ -111,24 +111,30 @@ class RcxDevice(Device):
         return f"{self.name} {self._actions.encode(action, args)}"
 
     def perform(self, action: str, args: Args) -> Args:
-        """Send the action's number and wait for what the brick answers."""
+        """Send the action's number and wait for what the brick answers; the link has been made ``free``."""
         number = self._actions.encode(action, args)
-        timeout = self._actions.timeout(action, args)
-        with self._link.action():
-            answer = self._opened().perform(number, timeout)
+        answer = self._opened().perform(number, self._actions.timeout(action, args))
         entry = self._actions.entry(action, args)
         return () if entry is None or entry.sensed is None else (self._actions.sensed(action, answer, args),)
 
-    def poll(self) -> list[tuple[str, Args]]:
-        """Fetch what the brick has to report, until it says that there is nothing more."""
-        found: list[tuple[str, Args]] = []
-        while len(found) < MOST_EVENTS:
-            with self._link.exchange():
-                number = self._opened().poll()
-            if number is None:
-                break
-            found.append(self._event(number))
-        return found
+    def free(self) -> AbstractContextManager[None]:
+        return self._link.action()
+
+    def poll(self, report: Callable[[str, Args], None]) -> None:
+        """Fetch what the brick has to report, until it says that there is nothing more.
+
+        An event is reported before the link is free for anything else: no action begins that did not know of it.
+        """
+        self.polling = True
+        try:
+            for _ in range(MOST_EVENTS):
+                with self._link.exchange():
+                    number = self._opened().poll()
+                    if number is None:
+                        break
+                    report(*self._event(number))
+        finally:
+            self.polling = False
 
     def _event(self, number: int) -> tuple[str, Args]:
         decoded = self._actions.decode(number)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import pytest
@@ -339,6 +340,22 @@ def test_an_event_whose_effect_leaves_its_type_is_dropped_whatever_the_policy(
 
     assert ["outside its type" in dropped.reason for dropped in run.only(Dropped)] == [True]
     assert run.value("x") == 3
+
+
+def test_an_event_that_comes_before_the_device_is_free_is_taken_in_first(start: Start, event: Event) -> None:
+    run = start(program("if p:\n    b\nelse:\n    a"))
+
+    @contextmanager
+    def free() -> Iterator[None]:
+        if not run.device.told[1:]:
+            run.device.told.append("an event")
+            run.inbox.put(event("flip"))
+        yield
+
+    run.device.free = free
+    run.run()
+
+    assert run.device.told == ["open", "an event", "b", "abort", "close"]
 
 
 def test_an_action_whose_effect_leaves_its_type_is_never_begun(start: Start) -> None:
