@@ -37,10 +37,11 @@ def _unused_values(names: Names, found: Usage, findings: Findings) -> None:
 
 
 def _unused_doings(theory: BasicActionTheory, names: Names, found: Usage, findings: Findings) -> None:
-    """Without a procedure every action is for planning; and any procedure without parameters may be the one to run."""
+    """Without a procedure, or with a goal, every action is for planning; and any procedure without parameters may be
+    the one to run."""
     if not theory.procedures:
         return
-    for entry in names.doings.of(Kind.ACTION):
+    for entry in () if theory.goals else names.doings.of(Kind.ACTION):
         if entry.name not in found.called and entry.name not in found.asked:
             _unused(entry, "no program performs it", findings)
     for entry in names.doings.of(Kind.PROCEDURE):

@@ -71,6 +71,8 @@ class _Walk:
                 self.push(
                     [part for part in children(node) if not isinstance(part, (tree.Ident, tree.Parameter))], inner
                 )
+            case tree.Invariant(condition=condition) | tree.Goal(condition=condition):
+                self.push([condition], {})
             case tree.Const(value=value):
                 self.push([value], {})
             case tree.TypeDecl(type=type_):

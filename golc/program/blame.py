@@ -75,6 +75,19 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
             return Blocked(span, "`search` finds no way to the end of its block")
 
 
+def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked]:
+    """Each conjunct of a closed formula that is false in a state, with the values of what it speaks of."""
+    with deep_recursion(EVALUATION):
+        false = [part for part in _conjuncts(formula) if not dynamics.interpreter.holds(part, state, ())]
+        return [Blocked(part.span, f"`{_text(part)}` is false", _values(dynamics, part, state, ())) for part in false]
+
+
+def impossible(dynamics: Dynamics, state: State, action: str, args: tuple[Value, ...]) -> Blocked:
+    """Which part of an action's precondition is false in a state."""
+    with deep_recursion(EVALUATION):
+        return _impossible(dynamics, state, dynamics.theory.actions[action].span, action, args)
+
+
 def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args: tuple[Value, ...]) -> Blocked:
     call = show_call(action, args)
     for term in dynamics.theory.actions[action].preconditions:

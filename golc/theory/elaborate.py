@@ -95,6 +95,8 @@ def _elaborate(
         _with_recursion(built.procedures),
         devices(context, blocks, {action.name: action.senses for action in built.actions.values()}),
         tuple(context.inline_types.values()),
+        tuple(built.named[Kind.GOAL]),
+        tuple(built.named[Kind.INVARIANT]),
     )
     _check_circles(context, theory)
     context.finish()
@@ -113,12 +115,13 @@ class _Builder:
         self.definitions: dict[str, Definition] = {}
         self.actions: dict[str, Action] = {}
         self.procedures: dict[str, Procedure] = {}
+        self.named: dict[Kind, list[str]] = {Kind.GOAL: [], Kind.INVARIANT: []}
 
     def declaration(self, node: tree.Declaration) -> None:
         """Elaborate a declaration. One that repeats a name is elaborated, too, for what is wrong inside it."""
         context = self.context
         entry = context.declared.entries.get(id(node))
-        if entry is None or entry.kind in (Kind.GOAL, Kind.INVARIANT):
+        if entry is None:
             if not isinstance(node, tree.Device):
                 actions.unsupported_declaration(context, node)
             return
@@ -131,8 +134,10 @@ class _Builder:
                 _keep(self.statics, entry, context.static(entry))
             case Kind.FLUENT:
                 _keep(self.fluents, entry, actions.fluent(context, entry))
-            case Kind.DEFINITION:
+            case Kind.DEFINITION | Kind.GOAL | Kind.INVARIANT:
                 _keep(self.definitions, entry, context.definition(entry))
+                if entry.kind is not Kind.DEFINITION:
+                    self.named[entry.kind].append(entry.name)
             case Kind.PROCEDURE:
                 _keep(self.procedures, entry, programs.procedure(context, entry))
             case _:
@@ -188,7 +193,7 @@ def _signature(context: Context, entry: Entry) -> Signature | None:
             return actions.fluent_signature(context, entry)
         case Kind.STATIC:
             return values.static_signature(context, entry)
-        case Kind.DEFINITION:
+        case Kind.DEFINITION | Kind.GOAL | Kind.INVARIANT:
             return actions.definition_signature(context, entry)
         case Kind.PROCEDURE:
             return programs.procedure_signature(context, entry)

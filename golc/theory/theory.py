@@ -53,7 +53,10 @@ class Fluent(Declared):
 
 @dataclass(frozen=True)
 class Definition(Declared):
-    """Evaluated by value: a term over the parameters that reads the current situation."""
+    """Evaluated by value: a term over the parameters that reads the current situation.
+
+    Goals and invariants are definitions, too: formulas without parameters.
+    """
 
     parameters: tuple[Parameter, ...]
     type: Type
@@ -195,6 +198,10 @@ class BasicActionTheory:
     devices: tuple[Device, ...]
     inline_types: tuple[Type, ...] = ()
     """The enumerations that stand in place of a type's name and declare symbols."""
+    goals: tuple[str, ...] = ()
+    """The definitions that are goals."""
+    invariants: tuple[str, ...] = ()
+    """The definitions that are invariants."""
 
     @property
     def symbols(self) -> frozenset[Value]:
