@@ -53,9 +53,9 @@ class Initially(Closed):
             case PossTerm(action=name, args=args) if theory is not None:
                 action = theory.actions[name]
                 inner = self._arguments(name, action.parameters, args, env)
+                value: Value = True
                 for condition in action.preconditions:
-                    if not self.evaluate(condition, inner):
-                        return False
-                return True
+                    value = value and self.evaluate(condition, inner)
+                return value
             case _:
                 return super().evaluate(term, env)

@@ -22,6 +22,7 @@ from golc.theory.calls import circular, substatements
 from golc.theory.context import Context, Resolver, Signature
 from golc.theory.declare import declare
 from golc.theory.elaborate_devices import device_name, devices
+from golc.theory.elaborate_scenarios import scenarios
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
@@ -97,6 +98,7 @@ def _elaborate(
         tuple(context.inline_types.values()),
         tuple(built.named[Kind.GOAL]),
         tuple(built.named[Kind.INVARIANT]),
+        scenarios(context, [node for node in file.declarations if isinstance(node, tree.Scenario)]),
     )
     _check_circles(context, theory)
     context.finish()
@@ -122,7 +124,7 @@ class _Builder:
         context = self.context
         entry = context.declared.entries.get(id(node))
         if entry is None:
-            if not isinstance(node, tree.Device):
+            if not isinstance(node, (tree.Device, tree.Scenario)):
                 actions.unsupported_declaration(context, node)
             return
         match entry.kind:

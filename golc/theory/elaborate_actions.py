@@ -235,5 +235,3 @@ def unsupported_declaration(context: Context, node: tree.Declaration) -> None:
             context.unsupported("`axiom` is", name.span)
         case tree.Prune(name=name) | tree.PruneAfter(name=name):
             context.unsupported("`prune` is", name.span)
-        case tree.Scenario(name=name):
-            context.unsupported("`scenario` is", name.span)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from golc.diagnostics import NOWHERE, Source, Span
+from golc.theory.scenarios import Scenario
 from golc.theory.statements import Message, Statement
 from golc.theory.terms import Binder, Term
 from golc.theory.types import Type, Value
@@ -202,6 +203,7 @@ class BasicActionTheory:
     """The definitions that are goals."""
     invariants: tuple[str, ...] = ()
     """The definitions that are invariants."""
+    scenarios: Mapping[str, Scenario] = field(default_factory=dict)
 
     @property
     def symbols(self) -> frozenset[Value]:
