@@ -64,6 +64,8 @@ def _unused_locals(theory: BasicActionTheory, found: Usage, findings: Findings) 
 
 def _should_be_used(bound: Bound, handed_over: set[str]) -> bool:
     match bound.owner:
+        case tree.Axiom():
+            return False  # an action may change all instances
         case tree.Fluent():
             return False  # every instance may have the same initial value
         case tree.Static(value=value):

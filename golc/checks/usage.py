@@ -73,6 +73,8 @@ class _Walk:
                 )
             case tree.Invariant(condition=condition) | tree.Goal(condition=condition):
                 self.push([condition], {})
+            case tree.Axiom():
+                self.axiom(node)
             case tree.Scenario(items=items):
                 for item in items:
                     self.scenario_item(item)
@@ -88,6 +90,19 @@ class _Walk:
                 pass  # what else there is, elaboration refuses
         while self.stack:
             self.visit(*self.stack.pop())
+
+    def axiom(self, node: tree.Axiom) -> None:
+        """What stands in a pattern may be a constant as well as a name that is bound there; it counts as both."""
+        self.usage.values.add(node.fluent.text)
+        heads = self.bind({}, node.parameters, node)
+        for case in node.cases:
+            names = [arg for arg in case.pattern.args if isinstance(arg, tree.Ident)]
+            for name in names:
+                self.mention(name.text, heads)
+            for bound in self.parameters.get(case.pattern.action.text, {}).values():
+                bound.used = True
+            scope = {name.text: Bound(name, "variable", case) for name in names} | dict(heads)
+            self.push([case.value, case.condition], scope)
 
     def scenario_item(self, item: tree.ScenarioItem) -> None:
         """Names of actions are no values; what a scenario expects to be done is not thereby used."""

@@ -21,6 +21,7 @@ from golc.theory import elaborate_values as values
 from golc.theory.calls import circular, substatements
 from golc.theory.context import Context, Resolver, Signature
 from golc.theory.declare import declare
+from golc.theory.elaborate_axioms import with_axioms
 from golc.theory.elaborate_devices import device_name, devices
 from golc.theory.elaborate_scenarios import scenarios
 from golc.theory.recursion import deep_recursion
@@ -84,6 +85,8 @@ def _elaborate(
     built = _Builder(context)
     for node in file.declarations:
         built.declaration(node)
+    axioms = [node for node in file.declarations if isinstance(node, tree.Axiom)]
+    built.actions = with_axioms(context, axioms, built.actions)
     theory = BasicActionTheory(
         file.domain.text,
         source,
@@ -124,7 +127,7 @@ class _Builder:
         context = self.context
         entry = context.declared.entries.get(id(node))
         if entry is None:
-            if not isinstance(node, (tree.Device, tree.Scenario)):
+            if not isinstance(node, (tree.Device, tree.Scenario, tree.Axiom)):
                 actions.unsupported_declaration(context, node)
             return
         match entry.kind:

@@ -231,7 +231,5 @@ def unsupported_declaration(context: Context, node: tree.Declaration) -> None:
             context.unsupported("`import` is", node.span)
         case tree.Initially():
             context.unsupported("`initially` is", node.span)
-        case tree.Axiom(fluent=name):
-            context.unsupported("`axiom` is", name.span)
         case tree.Prune(name=name) | tree.PruneAfter(name=name):
             context.unsupported("`prune` is", name.span)
