@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
 
 from golc.checks import check
-from golc.diagnostics import Diagnostic, Findings, Severity, Source, Span, UserError
+from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, Span, UserError
+from golc.imports import join
 from golc.syntax import tree
 from golc.syntax.parse import parse_expression, parse_file
 from golc.syntax.text import read_source
@@ -34,7 +35,10 @@ def load(path: str | Path, constants: Mapping[str, str] | None = None, goal: str
 def examine(
     path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None
 ) -> tuple[BasicActionTheory | None, list[Diagnostic]]:
-    """The theory of a domain file, or None if it has errors, and all findings in the order of their places."""
+    """The theory of a domain file, or None if it has errors, and all findings in the order of their places.
+
+    The declarations of imported files belong to it; ``constants`` and ``goal`` are as for ``load``.
+    """
     try:
         source = read_source(path)
     except UserError as error:
@@ -43,12 +47,18 @@ def examine(
     file = parse_file(source, findings)
     if file is not None and goal is not None:
         file = _with_goal(file, goal, findings)
-    theory = None if file is None else elaborate(file, source, findings, constants)
-    if file is not None and theory is not None:
+    if file is None:
+        return None, sorted(findings.diagnostics, key=_place((source,)))
+    joined = join(file, source, findings)
+    file, sources = joined.file, joined.sources
+    theory = elaborate(file, source, findings, constants, sources)
+    if theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):
-                findings.add(diagnostic)
-    return None if findings.has_errors else theory, sorted(findings.diagnostics, key=_place)
+                # What an imported file declares need not be used by every file that imports it.
+                if diagnostic.code is not Code.UNUSED or diagnostic.span.source is source:
+                    findings.add(diagnostic)
+    return None if findings.has_errors else theory, sorted(findings.diagnostics, key=_place(sources))
 
 
 def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:
@@ -61,7 +71,14 @@ def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:
     return replace(file, declarations=(*file.declarations, goal))
 
 
-def _place(diagnostic: Diagnostic) -> tuple[str, int, int, str]:
-    """What is wrong with the command line (``-D``) comes first: its sources sort before any path's letters."""
-    span = diagnostic.span
-    return (span.source.name if span.source.name.startswith("-D ") else "~", span.start, span.end, diagnostic.code.code)
+def _place(sources: tuple[Source, ...]) -> Callable[[Diagnostic], tuple[int, int, int, str]]:
+    """A key that orders findings by file and place: what is wrong with the command line (``-D``) comes first, a goal
+    from there last."""
+    ranks = {id(source): rank for rank, source in enumerate(sources)}
+
+    def place(diagnostic: Diagnostic) -> tuple[int, int, int, str]:
+        source, span = diagnostic.span.source, diagnostic.span
+        rank = ranks.get(id(source), -1 if source.name.startswith("-D ") else len(ranks))
+        return rank, span.start, span.end, diagnostic.code.code
+
+    return place

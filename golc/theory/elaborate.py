@@ -7,7 +7,7 @@ collects the names, ``context`` resolves each declaration once, the ``elaborate_
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
@@ -43,15 +43,24 @@ T = TypeVar("T")
 
 
 def elaborate(
-    file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str] | None = None
+    file: tree.File,
+    source: Source,
+    findings: Findings,
+    constants: Mapping[str, str] | None = None,
+    sources: Sequence[Source] = (),
 ) -> BasicActionTheory | None:
     """The theory that a file describes, or None if it has errors; every finding is added to ``findings``.
 
-    ``constants`` are values of consts as texts, which replace those in the file (``-D``). If there are errors among
+    ``constants`` are values of consts as texts, which replace those in the file (``-D``). ``sources`` are all sources
+    of a file with imports, which have been joined. If there are errors among
     ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
     """
-    assumed = _unread(file, source) if findings.has_errors else frozenset()
+    assumed: frozenset[str] = frozenset()
+    if findings.has_errors:
+        assumed = assumed.union(*[_unread(file, each) for each in sources or (source,)])
     found = Findings()
+    if not findings.has_errors:
+        _no_imports(file, found)
     theory = None
     try:
         with deep_recursion():
@@ -64,9 +73,17 @@ def elaborate(
     return None if findings.has_errors else theory
 
 
+def _no_imports(file: tree.File, findings: Findings) -> None:
+    """Where nothing is wrong so far, imports have been joined, or there is no file whose folder they could be in."""
+    for node in file.declarations:
+        if isinstance(node, tree.Import):
+            message = "`import` is not supported in a text that is no file"
+            findings.error(Code.UNSUPPORTED, message, node.span, "relative to no folder")
+
+
 def _unread(file: tree.File, source: Source) -> frozenset[str]:
     """Every word in the parts of a text that could not be read."""
-    read = {declaration.span.start for declaration in file.declarations}
+    read = {declaration.span.start for declaration in file.declarations if declaration.span.source is source}
     words: set[str] = set()
     for chunk in split(source.text):
         if chunk.start not in read:
@@ -127,7 +144,7 @@ class _Builder:
         context = self.context
         entry = context.declared.entries.get(id(node))
         if entry is None:
-            if not isinstance(node, (tree.Device, tree.Scenario, tree.Axiom)):
+            if not isinstance(node, (tree.Device, tree.Scenario, tree.Axiom, tree.Import)):
                 actions.unsupported_declaration(context, node)
             return
         match entry.kind:

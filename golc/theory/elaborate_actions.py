@@ -227,8 +227,6 @@ def _new_value(context: Context, scope: Scope, node: tree.Effect, signature: Sig
 def unsupported_declaration(context: Context, node: tree.Declaration) -> None:
     """Report a declaration that golc understands but cannot carry out yet."""
     match node:
-        case tree.Import():
-            context.unsupported("`import` is", node.span)
         case tree.Initially():
             context.unsupported("`initially` is", node.span)
         case tree.Prune(name=name) | tree.PruneAfter(name=name):
