@@ -83,8 +83,7 @@ def test_a_file_that_is_imported_twice_is_joined_once(tmp_path: Path) -> None:
         (
             {"main": MAIN, "parts_rooms": ROOMS.replace("hall, kitchen", "hall, at")},
             [
-                "main.gl:3:8 GL011 `at` is declared as a fluent, but it is a value already",
-                "main.gl:7:17 GL012 unknown name `kitchen`",
+                "parts/rooms.gl:2:20 GL011 `at` is declared as a value, but it is a fluent already",
             ],
         ),
         (
