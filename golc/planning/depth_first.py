@@ -27,9 +27,9 @@ class DeadEnd:
 
     def consider(self, steps: list[_Step]) -> None:
         """Remember a dead end if it is the deepest so far."""
-        actions = tuple(step.label for step in steps if isinstance(step.label, Act))
-        if self.node is None or len(actions) > len(self.actions):
-            self.actions, self.node, self.state = actions, steps[-1].node, steps[-1].state
+        if self.node is None or steps[-1].actions > len(self.actions):
+            self.actions = tuple(step.label for step in steps if isinstance(step.label, Act))
+            self.node, self.state = steps[-1].node, steps[-1].state
 
 
 @dataclass(slots=True)

@@ -24,26 +24,44 @@ from golc.theory.types import Value
 
 @dataclass(frozen=True)
 class Executable:
-    """A procedure of a theory, ready to be executed: online by ``machine``, in look-ahead by ``machine.ahead``."""
+    """A procedure of a theory, ready to be executed: online by ``machine``, in look-ahead by ``machine.ahead``.
+
+    ``look_ahead`` does what its ``search`` blocks want.
+    """
 
     dynamics: Dynamics
     machine: Machine
     node: Node
+    look_ahead: LookAhead
 
 
 def executable(theory: BasicActionTheory, procedure: str, args: tuple[Value, ...] = ()) -> Executable:
     """Compile a procedure; its arguments must be of the parameters' types."""
     dynamics = Dynamics(theory)
     program = Program()
+    look_ahead = LookAhead()
     ahead = Machine(dynamics, program, look_ahead)
     with deep_recursion():
         node = Builder(dynamics, program).start(procedure, args)
-    return Executable(dynamics, Machine(dynamics, program, look_ahead, ahead), node)
+    return Executable(dynamics, Machine(dynamics, program, look_ahead, ahead), node, look_ahead)
 
 
-def look_ahead(machine: Machine, node: Node, state: State) -> Path | None:
-    """What a ``search`` block does: the first way to its end."""
-    return find(machine, node, state, Budget())
+class LookAhead:
+    """What a ``search`` block does: find the first way to its end."""
+
+    def __init__(self) -> None:
+        self._given_up = False
+
+    def __call__(self, machine: Machine, node: Node, state: State) -> Path | None:
+        """The way, or none if there is none; raises ``GivenUpSearchError`` after ``give_up``."""
+        try:
+            return find(machine, node, state, Budget(given_up=lambda: self._given_up))
+        finally:
+            self._given_up = False
+
+    def give_up(self) -> None:
+        """Have the search that is under way, otherwise the next one, end without a result; for other threads."""
+        self._given_up = True
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from golc.situation import guards
 from golc.situation.layout import Layout, Place
-from golc.theory.fitting import includes
+from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
     Binder,
     DefinedTerm,
@@ -255,7 +255,8 @@ class Compiler:
     def _membership(self, element: str, type_: Type, within: Type) -> str:
         if isinstance(within, Interval) and type_.kinds == {"int"}:
             return f"({within.low} <= {element} <= {within.high})"
-        return f"({element} in {self.bind('set', frozenset(within.values))})"
+        listed = not isinstance(strip_optional(within), Interval)  # an interval may be too long to list
+        return f"({element} in {self.bind('set', frozenset(within.values) if listed else within)})"
 
     def _operation(self, term: Operation, cells: Cells, depth: int) -> str:
         op, args = term.op, term.args

@@ -17,7 +17,7 @@ from golc.theory.elaborate_types import LARGEST, elaborate_type
 from golc.theory.elaborate_values import parameter_scope
 from golc.theory.fitting import BROKEN, describe, includes, size
 from golc.theory.scope import Entry, Kind
-from golc.theory.suggest import closest
+from golc.theory.suggest import did_you_mean
 from golc.theory.terms import Literal, Term
 from golc.theory.theory import Binding, ByCall, ByPrompt, ByStart, Device, Fixed, Parameter, Setting
 from golc.theory.types import INT, Type, Value
@@ -67,13 +67,15 @@ def devices(context: Context, nodes: list[tree.Device], sensed: Mapping[str, tup
 def _device(context: Context, node: tree.Device, sensed: Mapping[str, tuple[Term, ...]]) -> Device | None:
     abilities = KINDS.get(node.kind.text)
     if abilities is None:
-        similar = closest(node.kind.text, SOURCES)
-        help_ = f"did you mean `{similar}`?" if similar else f"known are {', '.join(SOURCES)}"
+        help_ = did_you_mean(node.kind.text, SOURCES) or f"known are {', '.join(SOURCES)}"
         context.error(Code.DEVICE, f"unknown kind of device `{node.kind.text}`", node.kind.span, "not known", help_)
         return None
     if node.file is not None and abilities.file is None:
         message = f"a device `{node.kind.text}` has no file"
         context.error(Code.DEVICE, message, node.kind.span, "leave the file out")
+    if node.file is None and node.kind.text == "host":
+        message = "a device `host` needs the file with its functions"
+        context.error(Code.DEVICE, message, node.kind.span, "which file?", 'write `device host "helpers.py":`')
     bindings: list[Binding] = []
     settings: dict[str, Setting] = {}
     for item in node.items:
@@ -164,9 +166,6 @@ def _fits_kind(context: Context, device: tree.Device, abilities: Abilities, node
     elif behaviour is not None and not isinstance(behaviour, abilities.behaviours):
         message = f"a device `{kind}` carries out actions {abilities.said}"
         context.error(Code.DEVICE, message, behaviour.span, f"not by a device `{kind}`")
-    elif behaviour is not None and kind == "host" and device.file is None:
-        message = "a device `host` needs the file with its functions"
-        context.error(Code.DEVICE, message, device.kind.span, "which file?", 'write `device host "helpers.py":`')
 
 
 def _fits_number(context: Context, node: tree.Binding, args: tuple[Parameter | Fixed, ...]) -> None:

@@ -114,7 +114,7 @@ def test_abort_stops_a_behaviour(wire: MakeWire) -> None:
 def test_panic_reaches_the_host_and_is_ended(wire: MakeWire) -> None:
     lift = wire(air_time=0.0, echo=False, sleep=None)
     assert lift.say(37, 3.0)[-1] == 73
-    lift.wait(12)
+    lift.wait(14)
     assert lift.told("panicked")
     brick, port = connect(lift)
     port.read(20.0)
