@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from golc.diagnostics import Span
+from golc.diagnostics import ProgramError, Span
 from golc.program.labels import Act
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
@@ -76,10 +76,28 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
 
 
 def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked]:
-    """Each conjunct of a closed formula that is false in a state, with the values of what it speaks of."""
+    """Each conjunct of a closed formula that is false in a state, with the values of what it speaks of.
+
+    Behind a false conjunct others may have no value (``x != none and x < 3``); those are left out.
+    """
+    found = []
     with deep_recursion(EVALUATION):
-        false = [part for part in _conjuncts(formula) if not dynamics.interpreter.holds(part, state, ())]
-        return [Blocked(part.span, f"`{_text(part)}` is false", _values(dynamics, part, state, ())) for part in false]
+        for part in _conjuncts(formula):
+            try:
+                holds = dynamics.interpreter.holds(part, state, ())
+            except ProgramError:
+                continue
+            if not holds:
+                found.append(Blocked(part.span, f"`{_text(part)}` is false", _values_if_any(dynamics, part, state)))
+    return found
+
+
+def _values_if_any(dynamics: Dynamics, term: Term, state: State) -> tuple[tuple[str, Value], ...]:
+    """The values of what a term speaks of; none where a part that decides nothing has no value."""
+    try:
+        return _values(dynamics, term, state, ())
+    except ProgramError:
+        return ()
 
 
 def impossible(dynamics: Dynamics, state: State, action: str, args: tuple[Value, ...]) -> Blocked:

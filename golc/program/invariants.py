@@ -25,13 +25,16 @@ class Invariants:
                 invariant = dynamics.theory.definitions[name]
                 self._compiled.append((invariant, dynamics.compiler.term(invariant.body, 0)))
 
-    def check(self, state: State, step: str, span: Span) -> None:
-        """Raise ``ProgramError`` if an invariant is false in the state to which ``step``, from ``span``, has led."""
+    def check(self, state: State, step: str | None, span: Span) -> None:
+        """Raise ``ProgramError`` if an invariant is false in the state to which ``step``, from ``span``, has led.
+
+        Without a step it is the initial state.
+        """
         for invariant, holds in self._compiled:
             if not holds(state, ()):
                 raise self._broken(invariant, state, step, span)
 
-    def _broken(self, invariant: Definition, state: State, step: str, span: Span) -> ProgramError:
+    def _broken(self, invariant: Definition, state: State, step: str | None, span: Span) -> ProgramError:
         labels = []
         for part in false_parts(self._dynamics, state, invariant.body):
             values = ", ".join(f"{name} = {show(value)}" for name, value in part.values)
@@ -40,9 +43,9 @@ class Invariants:
         return ProgramError(
             Diagnostic(
                 Code.INVARIANT_BROKEN,
-                f"invariant `{invariant.name}` is false after `{step}`",
+                f"invariant `{invariant.name}` is false " + (f"after `{step}`" if step else "in the initial state"),
                 span,
-                marker="breaks it",
+                marker="breaks it" if step else "",
                 labels=tuple(labels),
                 notes=(f"the state: {shown}",),
             )

@@ -84,7 +84,7 @@ class _Play:
         for given in self.scenario.givens:
             if isinstance(given, Assumption) and (false := false_parts(self.dynamics, state, given.condition)):
                 raise failed("this is not so in the initial state", given.span, valued(false[0]))
-        self.invariants.check(state, "the beginning", self.scenario.span)
+        self.invariants.check(state, None, self.scenario.span)
         return state
 
     def _loop(self) -> None:

@@ -111,3 +111,16 @@ def test_an_action_with_an_endless_type_is_refused(tmp_path: Path) -> None:
 def test_an_action_that_leaves_a_type_is_an_error(tmp_path: Path) -> None:
     with pytest.raises(ProgramError, match="at would become 3, which is outside its type"):
         plan(tmp_path, "domain d\nfluent at: 1..2 = 1\naction up:\n    causes at := at + 1\n", "at = 1 and at = 2")
+
+
+def test_what_has_no_value_behind_what_is_false_is_no_error(tmp_path: Path) -> None:
+    text = (
+        "domain d\nfluent x: 0..3? = none\nfluent lit(n: 0..3) = false\naction a:\n    poss lit(0)\n    causes x := 1\n"
+    )
+    found, outcome = plan(tmp_path, text, "x != none and x < 3 and lit(x)")
+    assert found is None
+    assert [str(reason).split(": ", 1)[1] for reason in outcome.reasons] == [
+        "`x != none` is false (x = none)",
+        "`a` is not possible: `lit(0)` is false (lit(0) = false)",
+    ]
+    assert plan(tmp_path, text, "forall n: 0..3. x != none and lit(x)")[1].reasons[0].values == ()

@@ -135,7 +135,7 @@ def test_the_first_difference_is_told_with_the_run_up_to_it(
         ("on opens after 0\non opens after 1", "`opens` cannot happen here"),
         ("on closes when not open", "scenario `s` does not end: 100000 actions and events"),
         ("on opens after 0\non closes after 3", "invariant `near` is false after `closes`"),
-        ("given at = 3", "invariant `near` is false after `the beginning`"),
+        ("given at = 3", "invariant `near` is false in the initial state"),
     ],
 )
 def test_what_else_goes_wrong(tmp_path: Path, lines: str, message: str) -> None:
