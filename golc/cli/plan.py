@@ -177,7 +177,9 @@ class _Json:
         self._plans: list[Any] = []
 
     def add(self, plan: Plan) -> None:
-        self._plans.append([{"action": action.action, "args": list(action.args)} for action in plan.actions])
+        from golc.theory.types import writable
+
+        self._plans.append([{"action": action.action, "args": writable(action.args)} for action in plan.actions])
 
     def close(self, outcome: Outcome) -> None:
         """Write the object."""
