@@ -119,6 +119,7 @@ class Code(Enum):
     # 050..059: initial values
     NO_INITIAL = ("GL050", "a fluent has no initial value")
     INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
+    INVARIANT_AT_FIRST = ("GL052", "an invariant is false in the initial state")
 
     # 070..079: programs
     UNREACHABLE = ("GL070", "an interrupt is not reached")
@@ -138,6 +139,8 @@ class Code(Enum):
     IMPOSSIBLE_EVENT = ("GL112", "an exogenous action has occurred that the theory thinks impossible")
     ABORTED = ("GL113", "the program has ended itself as failed")
     WAITS_FOR_EVER = ("GL114", "the program waits and nothing can happen any more")
+    INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
+    SCENARIO = ("GL121", "a scenario does not go as it expects")
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")

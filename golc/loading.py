@@ -2,48 +2,83 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from golc.checks import check
-from golc.diagnostics import Diagnostic, Findings, Severity, UserError
-from golc.syntax.parse import parse_file
+from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, Span, UserError
+from golc.imports import join
+from golc.syntax import tree
+from golc.syntax.parse import parse_expression, parse_file
 from golc.syntax.text import read_source
 from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
+GOAL = "<goal>"
+"""The name of the goal that a formula from outside the file becomes; no declaration can have it."""
 
-def load(path: str | Path, constants: Mapping[str, str] | None = None) -> BasicActionTheory:
+
+def load(path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None) -> BasicActionTheory:
     """The theory of a domain file; ``constants`` replace consts of the file, name to text (``-D``).
 
-    Raises ``UserError`` with every error if there is one; warnings are not mentioned.
+    ``goal`` is a formula that becomes one more goal, under the name ``GOAL``. Raises ``UserError`` with every error if
+    there is one; warnings are not mentioned.
     """
-    theory, diagnostics = examine(path, constants)
+    theory, diagnostics = examine(path, constants, goal)
     if theory is None:
         raise UserError(*[diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR])
     return theory
 
 
 def examine(
-    path: str | Path, constants: Mapping[str, str] | None = None
+    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None
 ) -> tuple[BasicActionTheory | None, list[Diagnostic]]:
-    """The theory of a domain file, or None if it has errors, and all findings in the order of their places."""
+    """The theory of a domain file, or None if it has errors, and all findings in the order of their places.
+
+    The declarations of imported files belong to it; ``constants`` and ``goal`` are as for ``load``.
+    """
     try:
         source = read_source(path)
     except UserError as error:
         return None, list(error.diagnostics)
     findings = Findings()
     file = parse_file(source, findings)
-    theory = None if file is None else elaborate(file, source, findings, constants)
-    if file is not None and theory is not None:
+    if file is not None and goal is not None:
+        file = _with_goal(file, goal, findings)
+    if file is None:
+        return None, sorted(findings.diagnostics, key=_place((source,)))
+    joined = join(file, source, findings)
+    file, sources = joined.file, joined.sources
+    theory = elaborate(file, source, findings, constants, sources)
+    if theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):
-                findings.add(diagnostic)
-    return None if findings.has_errors else theory, sorted(findings.diagnostics, key=_place)
+                # What an imported file declares need not be used by every file that imports it.
+                if diagnostic.code is not Code.UNUSED or diagnostic.span.source is source:
+                    findings.add(diagnostic)
+    return None if findings.has_errors else theory, sorted(findings.diagnostics, key=_place(sources))
 
 
-def _place(diagnostic: Diagnostic) -> tuple[str, int, int, str]:
-    """What is wrong with the command line (``-D``) comes first: its sources sort before any path's letters."""
-    span = diagnostic.span
-    return (span.source.name if span.source.name.startswith("-D ") else "~", span.start, span.end, diagnostic.code.code)
+def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:
+    source = Source(GOAL, text)
+    condition = parse_expression(source, findings)
+    if condition is None:
+        return file
+    span = Span(source, 0, len(text))
+    goal = tree.Goal(tree.Ident(GOAL, span=span), condition, span=span)
+    return replace(file, declarations=(*file.declarations, goal))
+
+
+def _place(sources: tuple[Source, ...]) -> Callable[[Diagnostic], tuple[int, int, int, str]]:
+    """A key that orders findings by file and place: what is wrong with the command line (``-D``) comes first, a goal
+    from there last."""
+    ranks = {id(source): rank for rank, source in enumerate(sources)}
+
+    def place(diagnostic: Diagnostic) -> tuple[int, int, int, str]:
+        source, span = diagnostic.span.source, diagnostic.span
+        rank = ranks.get(id(source), -1 if source.name.startswith("-D ") else len(ranks))
+        return rank, span.start, span.end, diagnostic.code.code
+
+    return place

@@ -206,6 +206,8 @@ class Executive(Intake):
         if self.observers:
             now = self.clock.now()
             self.tell(Done(now, action, args, results, now - began, before, after, tuple(surprises)))
+        if self._invariants is not None:
+            self._invariants.check(after, str(label), label.span)
 
     def _confirmed(self, label: Act, confirm: Callable[[Act], None]) -> bool:
         """Ask whether an action may begin; False if something has happened meanwhile."""

@@ -6,6 +6,7 @@ from collections import deque
 from collections.abc import Callable, Sequence
 
 from golc.diagnostics import NOWHERE, Code, Diagnostic, ProgramError
+from golc.program.invariants import Invariants
 from golc.program.labels import Act
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device
@@ -40,6 +41,7 @@ class Intake:
         self._inbox = inbox
         self._devices = tuple(devices)
         self._policy = policy
+        self._invariants = Invariants(dynamics) if policy.check_invariants else None
         self._verdict: tuple[End, str] | None = None
         self._engaged: Callable[[], None] | None = None
         """Makes what the loop is engaged in give up, while that may take long."""
@@ -90,6 +92,8 @@ class Intake:
         self.history.append(report)
         if self.observers:
             self.tell(TakenIn(self.clock.now(), action, args, report.source, impossible, before, after))
+        if self._invariants is not None:
+            self._invariants.check(after, show_call(action, args), self.dynamics.theory.actions[action].span)
 
     def _misfit(self, report: Report) -> str | None:
         """What keeps a report from being an exogenous action of the domain at all."""

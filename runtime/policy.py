@@ -31,12 +31,14 @@ class Policy:
 
     ``on_failure`` says what to do about an action that a device could not do; ``retry_after`` is how many real seconds
     pass before it is tried again. ``stop_when_idle`` is the real time in seconds after which a run that only waits
-    ends. ``confirm`` is asked before each action and returns when it may begin. ``interrupt`` makes these two give up.
+    ends. ``check_invariants`` is whether a state in which an invariant is false ends the run. ``confirm`` is asked
+    before each action and returns when it may begin. ``interrupt`` makes these two give up.
     """
 
     on_impossible: OnImpossible = OnImpossible.APPLY
     on_failure: Callable[[Act, DeviceError], Remedy] = stop
     retry_after: float = 1.0
     stop_when_idle: float | None = None
+    check_invariants: bool = False
     confirm: Callable[[Act], None] | None = None
     interrupt: Callable[[], None] = lambda: None

@@ -51,6 +51,7 @@ class Settings:
     on_impossible: OnImpossible = OnImpossible.APPLY
     on_failure: Remedy | None = None
     """None: ask the operator."""
+    check_invariants: bool = False
     step: bool = False
     speed: float = 1.0
     seed: int = 0
@@ -174,6 +175,7 @@ class _Session:
             else always(settings.on_failure),
             retry_after=clock.real(1.0),
             stop_when_idle=None if idle is None else clock.real(idle),
+            check_invariants=settings.check_invariants,
             confirm=AskBeforeActions(self.desk) if settings.step else None,
             interrupt=self.desk.interrupt,
         )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from golc.checks.devices import check_devices
 from golc.checks.initial import check_initial
+from golc.checks.invariants import check_invariants
 from golc.checks.names import check_names
 from golc.checks.programs import check_programs
 from golc.diagnostics import Diagnostic, Findings
@@ -16,6 +17,8 @@ def check(theory: BasicActionTheory, file: tree.File) -> list[Diagnostic]:
     findings = Findings()
     check_names(theory, file, findings)
     check_initial(theory, findings)
+    if not findings.has_errors:  # an initial value that cannot be computed has been said
+        check_invariants(theory, findings)
     check_programs(theory, findings)
     check_devices(theory, findings)
     return findings.diagnostics

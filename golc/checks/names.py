@@ -37,10 +37,11 @@ def _unused_values(names: Names, found: Usage, findings: Findings) -> None:
 
 
 def _unused_doings(theory: BasicActionTheory, names: Names, found: Usage, findings: Findings) -> None:
-    """Without a procedure every action is for planning; and any procedure without parameters may be the one to run."""
+    """Without a procedure, or with a goal, every action is for planning; and any procedure without parameters may be
+    the one to run."""
     if not theory.procedures:
         return
-    for entry in names.doings.of(Kind.ACTION):
+    for entry in () if theory.goals else names.doings.of(Kind.ACTION):
         if entry.name not in found.called and entry.name not in found.asked:
             _unused(entry, "no program performs it", findings)
     for entry in names.doings.of(Kind.PROCEDURE):
@@ -63,6 +64,8 @@ def _unused_locals(theory: BasicActionTheory, found: Usage, findings: Findings) 
 
 def _should_be_used(bound: Bound, handed_over: set[str]) -> bool:
     match bound.owner:
+        case tree.Axiom():
+            return False  # an action may change all instances
         case tree.Fluent():
             return False  # every instance may have the same initial value
         case tree.Static(value=value):

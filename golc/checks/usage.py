@@ -71,6 +71,13 @@ class _Walk:
                 self.push(
                     [part for part in children(node) if not isinstance(part, (tree.Ident, tree.Parameter))], inner
                 )
+            case tree.Invariant(condition=condition) | tree.Goal(condition=condition):
+                self.push([condition], {})
+            case tree.Axiom():
+                self.axiom(node)
+            case tree.Scenario(items=items):
+                for item in items:
+                    self.scenario_item(item)
             case tree.Const(value=value):
                 self.push([value], {})
             case tree.TypeDecl(type=type_):
@@ -83,6 +90,36 @@ class _Walk:
                 pass  # what else there is, elaboration refuses
         while self.stack:
             self.visit(*self.stack.pop())
+
+    def axiom(self, node: tree.Axiom) -> None:
+        """What stands in a pattern may be a constant as well as a name that is bound there; it counts as both."""
+        self.usage.values.add(node.fluent.text)
+        heads = self.bind({}, node.parameters, node)
+        for case in node.cases:
+            names = [arg for arg in case.pattern.args if isinstance(arg, tree.Ident)]
+            for name in names:
+                self.mention(name.text, heads)
+            for bound in self.parameters.get(case.pattern.action.text, {}).values():
+                bound.used = True
+            scope = {name.text: Bound(name, "variable", case) for name in names} | dict(heads)
+            self.push([case.value, case.condition], scope)
+
+    def scenario_item(self, item: tree.ScenarioItem) -> None:
+        """Names of actions are no values; what a scenario expects to be done is not thereby used."""
+        match item:
+            case tree.Given(condition=condition) | tree.Until(condition=condition):
+                self.push([condition], {})
+            case tree.ExpectFormula(condition=condition):
+                self.push([condition], {})
+            case tree.Run(program=program):
+                self.usage.called.setdefault(program.name.text, set()).add("")
+                self.push(program.args, {})
+            case tree.OnEvents(events=events, argument=argument):
+                self.push([argument, *[arg for event in events for arg in event.args]], {})
+            case tree.ExpectCount(action=action, count=count):
+                self.push([count, *action.args], {})
+            case tree.ExpectActions(actions=actions):
+                self.push([arg for action in actions for arg in action.args], {})
 
     def push(self, nodes: Iterable[tree.Node | None], scope: Locals) -> None:
         self.stack.extend([(node, scope) for node in nodes if node is not None])

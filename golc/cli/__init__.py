@@ -19,6 +19,7 @@ from golc.theory.recursion import EVALUATION
 COMMANDS = {
     "check": "golc.cli.check",
     "plan": "golc.cli.plan",
+    "test": "golc.cli.test",
     "gen-nqc": "golc.cli.gen_nqc",
     "run": "golc.cli.run",
     "sim": "golc.cli.sim",

@@ -15,7 +15,9 @@ import click
 from golc.cli.common import Console, Quantity, console_options, constants_option
 
 if TYPE_CHECKING:
-    from golc.planning.planner import Outcome, Plan
+    from golc.planning.goals import GoalPlanning
+    from golc.planning.limits import Limits
+    from golc.planning.planner import Outcome, Plan, Planning
 
 DONE, NO_PLAN, GAVE_UP = 0, 1, 3
 EVERY = 10**12
@@ -24,7 +26,8 @@ EVERY = 10**12
 
 @click.command(name="plan", short_help="Plan offline with a program.")
 @click.argument("file", type=click.Path())
-@click.argument("procedure", metavar="[PROC]", default="control")
+@click.argument("procedure", metavar="[PROC]", required=False)
+@click.option("--goal", metavar="NAME|FORMULA", help="Plan without a program: the fewest actions that make this true.")
 @click.option("--first", is_flag=True, help="One plan, the first in program order; this is the default.")
 @click.option(
     "--all",
@@ -48,7 +51,8 @@ EVERY = 10**12
 def command(
     console: Console,
     file: str,
-    procedure: str,
+    procedure: str | None,
+    goal: str | None,
     first: bool,
     most: int | None,
     steps: int | None,
@@ -62,32 +66,54 @@ def command(
     """Execute a program of FILE offline and print the actions of a plan, one a line.
 
     PROC is a procedure, with arguments where it takes some; the default is `control`. `search` blocks are part of the
-    program. Nothing is sent to any device.
+    program. With --goal there is no program: any action may be done that is possible. Nothing is sent to any device.
 
     \b
     golc plan examples/elevator/elevator.gl
     golc plan examples/elevator/elevator.gl 'handle(25)' --all
+    golc plan examples/elevator/elevator.gl --goal 'at = 5 and not lit(5)'
     """
-    from golc.loading import load
     from golc.planning.limits import Limits
-    from golc.planning.planner import Planning, executable
-    from golc.runtime.calls import read_procedure
 
     if first and most is not None:
         raise click.UsageError("--first and --all exclude each other")
-    theory = load(file, constants)
-    call = read_procedure(theory, procedure)
-    planning = Planning(executable(theory, call.action, call.args), Limits(steps, nodes, seconds), most is not None)
+    if goal is not None and (procedure is not None or most is not None):
+        raise click.UsageError("--goal asks for one plan without a program: it excludes PROC and --all")
+    limits = Limits(steps, nodes, seconds)
+    planning: Planning | GoalPlanning
+    if goal is not None:
+        program, planning = goal, _for_goal(file, constants, goal, limits)
+    else:
+        program, planning = _for_program(file, constants, procedure or "control", limits, most is not None)
     with _writer(output) as write:
         listing = _Json(write) if format_ == "json" else _Text(write, numbered=most is not None)
         for plan in islice(planning, most):
             listing.add(plan)
         listing.close(planning.outcome)
     outcome = planning.outcome
-    _report(console, str(call), outcome, stats)
+    _report(console, program, outcome, stats)
     if outcome.plans and most is not None and outcome.plans >= most:
         return DONE
     return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
+
+
+def _for_goal(file: str, constants: Mapping[str, str], goal: str, limits: Limits) -> GoalPlanning:
+    from golc.loading import GOAL, load
+    from golc.planning.goals import GoalPlanning
+
+    return GoalPlanning(load(file, constants, goal), GOAL, limits)
+
+
+def _for_program(
+    file: str, constants: Mapping[str, str], procedure: str, limits: Limits, all_plans: bool
+) -> tuple[str, Planning]:
+    from golc.loading import load
+    from golc.planning.planner import Planning, executable
+    from golc.runtime.calls import read_procedure
+
+    theory = load(file, constants)
+    call = read_procedure(theory, procedure)
+    return str(call), Planning(executable(theory, call.action, call.args), limits, all_plans)
 
 
 @contextmanager
@@ -171,7 +197,7 @@ class _Json:
 
 def _report(console: Console, program: str, outcome: Outcome, stats: bool) -> None:
     if not outcome.plans:
-        verdict = outcome.gave_up or "proven: it cannot be executed to its end"
+        verdict = outcome.gave_up or f"proven: {outcome.proof}"
         console.err(f"no plan for `{program}`: {verdict}")
         way = ", ".join(map(str, outcome.stuck)) or "no action at all"
         if outcome.reasons:

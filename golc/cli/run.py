@@ -49,6 +49,9 @@ if TYPE_CHECKING:
     type=click.Choice(["ask", "retry", "next", "stop"]),
     help="What to do about an action that its device cannot do: ask (the default at a terminal), or stop.",
 )
+@click.option(
+    "--check-invariants", is_flag=True, help="End the run as failed when an action or event has broken an invariant."
+)
 @click.option("--step", is_flag=True, help="Ask before each action.")
 @click.option(
     "--speed",
@@ -72,6 +75,7 @@ def command(
     stop_when_idle: float | None,
     on_impossible: str,
     on_failure: str | None,
+    check_invariants: bool,
     step: bool,
     speed: float,
     seed: int,
@@ -108,6 +112,7 @@ def command(
         stop_when_idle=stop_when_idle,
         on_impossible=OnImpossible(on_impossible),
         on_failure=None if on_failure == "ask" else Remedy(on_failure),
+        check_invariants=check_invariants,
         step=step,
         speed=speed,
         seed=seed,

@@ -76,7 +76,7 @@ class Outcome:
     """What a search for plans came to.
 
     ``stuck`` and ``reasons`` say, where no plan was found, how far the longest way came and what failed there;
-    ``gave_up`` is the limit that ended the search, if one did.
+    ``gave_up`` is the limit that ended the search, if one did; ``proof`` is what is proven without plan and limit.
     """
 
     plans: int = 0
@@ -85,6 +85,7 @@ class Outcome:
     reasons: list[Blocked] = field(default_factory=list)
     expanded: int = 0
     seconds: float = 0.0
+    proof: str = "it cannot be executed to its end"
 
 
 class Planning:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from golc.diagnostics import Span
+from golc.diagnostics import ProgramError, Span
 from golc.program.labels import Act
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
@@ -73,6 +73,37 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
             return _lost(dynamics, state, *details)
         case _:
             return Blocked(span, "`search` finds no way to the end of its block")
+
+
+def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked]:
+    """Each conjunct of a closed formula that is false in a state, with the values of what it speaks of.
+
+    Behind a false conjunct others may have no value (``x != none and x < 3``); those are left out.
+    """
+    found = []
+    with deep_recursion(EVALUATION):
+        for part in _conjuncts(formula):
+            try:
+                holds = dynamics.interpreter.holds(part, state, ())
+            except ProgramError:
+                continue
+            if not holds:
+                found.append(Blocked(part.span, f"`{_text(part)}` is false", _values_if_any(dynamics, part, state)))
+    return found
+
+
+def _values_if_any(dynamics: Dynamics, term: Term, state: State) -> tuple[tuple[str, Value], ...]:
+    """The values of what a term speaks of; none where a part that decides nothing has no value."""
+    try:
+        return _values(dynamics, term, state, ())
+    except ProgramError:
+        return ()
+
+
+def impossible(dynamics: Dynamics, state: State, action: str, args: tuple[Value, ...]) -> Blocked:
+    """Which part of an action's precondition is false in a state."""
+    with deep_recursion(EVALUATION):
+        return _impossible(dynamics, state, dynamics.theory.actions[action].span, action, args)
 
 
 def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args: tuple[Value, ...]) -> Blocked:

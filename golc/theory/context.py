@@ -157,9 +157,9 @@ class Context:
     def finish(self) -> None:
         """Report what could only be known at the end."""
         for uses in self._missing.values():
-            uses.sort(key=lambda finding: finding.span.start)
-            lines = [*dict.fromkeys(str(use.span.line) for use in uses[1:])]
+            uses.sort(key=lambda finding: (finding.span.source.name, finding.span.start))
             first = uses[0]
+            lines = [*dict.fromkeys(_line(use.span, first.span.source) for use in uses[1:])]
             also = (
                 f"also used in line{'s' * (len(lines) > 1)} {', '.join(lines[:10])}{', …' if len(lines) > 10 else ''}"
             )
@@ -173,6 +173,10 @@ class Context:
                     help=first.help,
                 )
             )
+
+
+def _line(span: Span, source: Source) -> str:
+    return str(span.line) if span.source is source else f"{span.line} of {span.source.name}"
 
 
 def first_line(span: Span) -> Span:

@@ -7,7 +7,7 @@ collects the names, ``context`` resolves each declaration once, the ``elaborate_
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
@@ -21,7 +21,9 @@ from golc.theory import elaborate_values as values
 from golc.theory.calls import circular, substatements
 from golc.theory.context import Context, Resolver, Signature
 from golc.theory.declare import declare
+from golc.theory.elaborate_axioms import with_axioms
 from golc.theory.elaborate_devices import device_name, devices
+from golc.theory.elaborate_scenarios import scenarios
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
@@ -41,15 +43,24 @@ T = TypeVar("T")
 
 
 def elaborate(
-    file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str] | None = None
+    file: tree.File,
+    source: Source,
+    findings: Findings,
+    constants: Mapping[str, str] | None = None,
+    sources: Sequence[Source] = (),
 ) -> BasicActionTheory | None:
     """The theory that a file describes, or None if it has errors; every finding is added to ``findings``.
 
-    ``constants`` are values of consts as texts, which replace those in the file (``-D``). If there are errors among
+    ``constants`` are values of consts as texts, which replace those in the file (``-D``). ``sources`` are all sources
+    of a file with imports, which have been joined. If there are errors among
     ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
     """
-    assumed = _unread(file, source) if findings.has_errors else frozenset()
+    assumed: frozenset[str] = frozenset()
+    if findings.has_errors:
+        assumed = assumed.union(*[_unread(file, each) for each in sources or (source,)])
     found = Findings()
+    if not findings.has_errors:
+        _no_imports(file, found)
     theory = None
     try:
         with deep_recursion():
@@ -62,9 +73,17 @@ def elaborate(
     return None if findings.has_errors else theory
 
 
+def _no_imports(file: tree.File, findings: Findings) -> None:
+    """Where nothing is wrong so far, imports have been joined, or there is no file whose folder they could be in."""
+    for node in file.declarations:
+        if isinstance(node, tree.Import):
+            message = "`import` is not supported in a text that is no file"
+            findings.error(Code.UNSUPPORTED, message, node.span, "relative to no folder")
+
+
 def _unread(file: tree.File, source: Source) -> frozenset[str]:
     """Every word in the parts of a text that could not be read."""
-    read = {declaration.span.start for declaration in file.declarations}
+    read = {declaration.span.start for declaration in file.declarations if declaration.span.source is source}
     words: set[str] = set()
     for chunk in split(source.text):
         if chunk.start not in read:
@@ -83,6 +102,8 @@ def _elaborate(
     built = _Builder(context)
     for node in file.declarations:
         built.declaration(node)
+    axioms = [node for node in file.declarations if isinstance(node, tree.Axiom)]
+    built.actions = with_axioms(context, axioms, built.actions)
     theory = BasicActionTheory(
         file.domain.text,
         source,
@@ -95,6 +116,9 @@ def _elaborate(
         _with_recursion(built.procedures),
         devices(context, blocks, {action.name: action.senses for action in built.actions.values()}),
         tuple(context.inline_types.values()),
+        tuple(built.named[Kind.GOAL]),
+        tuple(built.named[Kind.INVARIANT]),
+        scenarios(context, [node for node in file.declarations if isinstance(node, tree.Scenario)]),
     )
     _check_circles(context, theory)
     context.finish()
@@ -113,13 +137,14 @@ class _Builder:
         self.definitions: dict[str, Definition] = {}
         self.actions: dict[str, Action] = {}
         self.procedures: dict[str, Procedure] = {}
+        self.named: dict[Kind, list[str]] = {Kind.GOAL: [], Kind.INVARIANT: []}
 
     def declaration(self, node: tree.Declaration) -> None:
         """Elaborate a declaration. One that repeats a name is elaborated, too, for what is wrong inside it."""
         context = self.context
         entry = context.declared.entries.get(id(node))
-        if entry is None or entry.kind in (Kind.GOAL, Kind.INVARIANT):
-            if not isinstance(node, tree.Device):
+        if entry is None:
+            if not isinstance(node, (tree.Device, tree.Scenario, tree.Axiom, tree.Import)):
                 actions.unsupported_declaration(context, node)
             return
         match entry.kind:
@@ -131,8 +156,10 @@ class _Builder:
                 _keep(self.statics, entry, context.static(entry))
             case Kind.FLUENT:
                 _keep(self.fluents, entry, actions.fluent(context, entry))
-            case Kind.DEFINITION:
+            case Kind.DEFINITION | Kind.GOAL | Kind.INVARIANT:
                 _keep(self.definitions, entry, context.definition(entry))
+                if entry.kind is not Kind.DEFINITION:
+                    self.named[entry.kind].append(entry.name)
             case Kind.PROCEDURE:
                 _keep(self.procedures, entry, programs.procedure(context, entry))
             case _:
@@ -188,7 +215,7 @@ def _signature(context: Context, entry: Entry) -> Signature | None:
             return actions.fluent_signature(context, entry)
         case Kind.STATIC:
             return values.static_signature(context, entry)
-        case Kind.DEFINITION:
+        case Kind.DEFINITION | Kind.GOAL | Kind.INVARIANT:
             return actions.definition_signature(context, entry)
         case Kind.PROCEDURE:
             return programs.procedure_signature(context, entry)

@@ -86,8 +86,11 @@ def definition_signature(context: Context, entry: Entry) -> Signature | None:
 
 
 def definition(context: Context, entry: Entry) -> Definition | None:
-    """A definition with its body."""
+    """A definition with its body; goals and invariants are formulas without parameters."""
     node = entry.node
+    if isinstance(node, (tree.Goal, tree.Invariant)):
+        condition = formula(context, Scope(), node.condition, f"{entry.kind.value} `{entry.name}`")
+        return None if condition.type is BROKEN else Definition(entry.name, (), BOOL, condition, span=entry.span)
     assert isinstance(node, tree.Define)
     found = parameters(context, node.parameters, f"definition `{entry.name}`", infinite=True)
     body = term(context, parameter_scope(context, found, node.parameters), node.body)
@@ -223,17 +226,7 @@ def _new_value(context: Context, scope: Scope, node: tree.Effect, signature: Sig
 def unsupported_declaration(context: Context, node: tree.Declaration) -> None:
     """Report a declaration that golc understands but cannot carry out yet."""
     match node:
-        case tree.Import():
-            context.unsupported("`import` is", node.span)
         case tree.Initially():
             context.unsupported("`initially` is", node.span)
-        case tree.Axiom(fluent=name):
-            context.unsupported("`axiom` is", name.span)
-        case tree.Invariant(name=name):
-            context.unsupported("`invariant` is", name.span)
-        case tree.Goal(name=name):
-            context.unsupported("`goal` is", name.span)
         case tree.Prune(name=name) | tree.PruneAfter(name=name):
             context.unsupported("`prune` is", name.span)
-        case tree.Scenario(name=name):
-            context.unsupported("`scenario` is", name.span)

@@ -14,8 +14,8 @@ from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import Literal, Variable
 from golc.theory.types import BOOL, Enumeration, Type, show
 
-TERMS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.CONSTANT, Kind.SYMBOL)
-CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC)
+CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.GOAL, Kind.INVARIANT)
+TERMS = (*CALLS, Kind.CONSTANT, Kind.SYMBOL)
 
 Resolution: TypeAlias = Variable | Literal | Signature | None
 """A variable, the value of a constant, something to apply to arguments, or none (a finding, or none of its own)."""
@@ -50,8 +50,6 @@ def resolve(context: Context, scope: Scope, node: tree.Apply, hint: Type | None)
         case Kind.TYPE:
             context.unsupported(f"the list of the values of `{entry.name}` is", node.name.span)
             return None
-        case Kind.GOAL | Kind.INVARIANT:
-            return None  # their declarations are not supported yet, which is said there
         case _:
             return context.signature(entry)
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from golc.diagnostics import NOWHERE, Source, Span
+from golc.theory.scenarios import Scenario
 from golc.theory.statements import Message, Statement
 from golc.theory.terms import Binder, Term
 from golc.theory.types import Type, Value
@@ -53,7 +54,10 @@ class Fluent(Declared):
 
 @dataclass(frozen=True)
 class Definition(Declared):
-    """Evaluated by value: a term over the parameters that reads the current situation."""
+    """Evaluated by value: a term over the parameters that reads the current situation.
+
+    Goals and invariants are definitions, too: formulas without parameters.
+    """
 
     parameters: tuple[Parameter, ...]
     type: Type
@@ -195,6 +199,11 @@ class BasicActionTheory:
     devices: tuple[Device, ...]
     inline_types: tuple[Type, ...] = ()
     """The enumerations that stand in place of a type's name and declare symbols."""
+    goals: tuple[str, ...] = ()
+    """The definitions that are goals."""
+    invariants: tuple[str, ...] = ()
+    """The definitions that are invariants."""
+    scenarios: Mapping[str, Scenario] = field(default_factory=dict)
 
     @property
     def symbols(self) -> frozenset[Value]:

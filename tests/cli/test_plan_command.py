@@ -139,6 +139,23 @@ def test_an_error_while_planning_has_its_place(tmp_path: Path) -> None:
     assert "x would become 4, which is outside its type t (1..3)" in done.stderr
 
 
+def test_a_goal_needs_no_program() -> None:
+    done = golc("plan", ELEVATOR, "--goal", "at = 5 and not lit(5)", "--format", "json")
+    assert done.returncode == 0
+    plan = [{"action": "up", "args": []}, {"action": "up", "args": []}, {"action": "off", "args": [5]}]
+    assert json.loads(done.stdout)["plans"] == [plan]
+
+
+def test_a_goal_that_cannot_be_reached_or_is_no_formula() -> None:
+    done = golc("plan", ELEVATOR, "--goal", "lit(3)", "-D", "top=3")
+    assert done.returncode == 1
+    assert done.stderr.startswith("no plan for `lit(3)`: proven: no sequence of actions makes it true\n")
+    assert golc("plan", ELEVATOR, "--goal", "lit(3)", "--nodes", "5").returncode == 3
+    assert golc("plan", ELEVATOR, "--goal", "lit(3").returncode == 1
+    assert golc("plan", ELEVATOR, "basic", "--goal", "lit(3)").returncode == 2
+    assert golc("plan", ELEVATOR, "--all", "--goal", "lit(3)").returncode == 2
+
+
 def test_a_pipe_is_written_to_and_stays(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)

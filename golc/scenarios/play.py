@@ -1,0 +1,179 @@
+"""Plays a scenario: the online loop without devices, in a world that does what the scenario says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from golc.diagnostics import Code, Diagnostic, Label, ProgramError, Span
+from golc.planning.planner import executable
+from golc.program.blame import false_parts, impossible
+from golc.program.circles import CIRCLES, runs_in_circles
+from golc.program.invariants import Invariants
+from golc.program.labels import Abort, Act, Say, Wait
+from golc.scenarios.expect import Judge, failed, valued
+from golc.situation.layout import State
+from golc.theory.recursion import EVALUATION, deep_recursion
+from golc.theory.scenarios import Assignment, Assumption, Events, GroundCall, Scenario
+from golc.theory.terms import Term
+from golc.theory.theory import BasicActionTheory
+
+LONGEST = 100_000
+"""Actions and events after which a scenario is taken not to end."""
+
+
+@dataclass
+class Played:
+    """What came of a scenario: ``failure`` is none if it went as it expects.
+
+    ``trace`` has a line for each action, event and message, up to the first difference.
+    """
+
+    scenario: Scenario
+    actions: int = 0
+    events: int = 0
+    trace: list[str] = field(default_factory=list)
+    failure: Diagnostic | None = None
+
+
+def play(theory: BasicActionTheory, scenario: Scenario) -> Played:
+    """Run a scenario to its end; whatever goes wrong in it is its failure."""
+    played = Played(scenario)
+    try:
+        with deep_recursion(EVALUATION):
+            _Play(theory, scenario, played).run()
+    except ProgramError as error:
+        played.failure = error.diagnostic
+    return played
+
+
+class _Play:
+    """A scenario under way."""
+
+    def __init__(self, theory: BasicActionTheory, scenario: Scenario, played: Played) -> None:
+        self.scenario = scenario
+        self.played = played
+        ready = executable(theory, scenario.procedure.name, scenario.procedure.args)
+        self.dynamics, self.machine, self.node = ready.dynamics, ready.machine, ready.node
+        self.judge = Judge(scenario.expectations, self.dynamics)
+        self.invariants = Invariants(self.dynamics)
+        self.state = self._initial()
+        self._until = None if scenario.until is None else self._formula(scenario.until)
+        self._lines = [
+            (line, self._formula(line.trigger) if isinstance(line.trigger, Term) else None) for line in scenario.events
+        ]
+        self._waited: set[int] = set()
+
+    def run(self) -> None:
+        """Raises ``ProgramError`` for the first difference."""
+        self._after_actions()
+        self._loop()
+        self.judge.at_the_end(self.state)
+
+    def _formula(self, term: Term) -> Callable[..., Any]:
+        with deep_recursion():
+            return self.dynamics.compiler.term(term, 0)
+
+    def _initial(self) -> State:
+        values = list(self.dynamics.initial())
+        for given in self.scenario.givens:
+            if isinstance(given, Assignment):
+                values[self.dynamics.layout.places[given.fluent].slot(given.args)] = given.value
+        state = tuple(values)
+        for given in self.scenario.givens:
+            if isinstance(given, Assumption) and (false := false_parts(self.dynamics, state, given.condition)):
+                raise failed("this is not so in the initial state", given.span, valued(false[0]))
+        self.invariants.check(state, None, self.scenario.span)
+        return state
+
+    def _loop(self) -> None:
+        quiet = 0
+        while self._until is None or not self._until(self.state, ()):
+            choice = self.machine.decide(self.node, self.state)
+            if choice is None:
+                if self.machine.final(self.node, self.state):
+                    return self._stop("the program is final")
+                if not self._world():
+                    raise self._blocked()
+                continue
+            label, residual = choice
+            quiet += 1
+            match label:
+                case Act():
+                    quiet = 0
+                    self._act(label)
+                case Wait(span=span):
+                    quiet = 0
+                    if not self._world():
+                        return self._stop(f"the program waits, at line {span.line}, and nothing more happens")
+                case Say(text=text):
+                    self.played.trace.append(f'      "{text}"')
+                case Abort(text=text, span=span):
+                    raise ProgramError(Diagnostic(Code.ABORTED, text or "the program aborts", span))
+            if quiet >= CIRCLES:
+                raise runs_in_circles(label.span)
+            self.node = residual
+        return None
+
+    def _stop(self, why: str) -> None:
+        """The program has come to rest, which must not be before ``until`` holds."""
+        until = self.scenario.until
+        if until is not None:
+            parts = false_parts(self.dynamics, self.state, until)
+            raise failed(f"`until` never holds: {why}", until.span, valued(parts[0]) if parts else "")
+
+    def _blocked(self) -> ProgramError:
+        branches = self.machine.why_blocked(self.node, self.state)
+        labels = tuple(Label(branch.span, valued(branch)) for branch in branches)
+        message = f"the program is blocked in scenario `{self.scenario.name}`, and nothing more happens"
+        return ProgramError(Diagnostic(Code.SCENARIO, message, self.scenario.span, labels=labels))
+
+    def _act(self, act: Act) -> None:
+        self.state = self.dynamics.progress(self.state, act.action, act.args)
+        self.played.actions += 1
+        self.played.trace.append(f"{self.played.actions:>5} {act}")
+        self.invariants.check(self.state, str(act), act.span)
+        self.judge.happened(act.action, act.args)
+        self._end_at_last(act.span)
+        self._after_actions()
+
+    def _after_actions(self) -> None:
+        """The events that are to happen right after so many actions."""
+        for line, _ in self._lines:
+            if isinstance(line.trigger, int) and line.trigger == self.played.actions:
+                self._happen(line)
+
+    def _world(self) -> bool:
+        """The program can only wait: the first line that has something for this moment happens; whether one has."""
+        for index, (line, condition) in enumerate(self._lines):
+            if condition is not None:
+                happens = bool(condition(self.state, ()))
+            else:
+                happens = line.trigger is None and index not in self._waited
+            if happens:
+                self._waited.add(index)
+                self._happen(line)
+                return True
+        return False
+
+    def _happen(self, line: Events) -> None:
+        for event in line.events:
+            self._event(event)
+
+    def _event(self, event: GroundCall) -> None:
+        if not self.dynamics.possible(self.state, event.name, event.args):
+            why = impossible(self.dynamics, self.state, event.name, event.args)
+            message = f"`{event}` cannot happen here"
+            labels = (Label(why.span, valued(why)),)
+            raise ProgramError(Diagnostic(Code.SCENARIO, message, event.span, labels=labels))
+        self.state = self.dynamics.progress(self.state, event.name, event.args)
+        self.played.events += 1
+        self.played.trace.append(f"      <- {event}")
+        self.invariants.check(self.state, str(event), event.span)
+        self.judge.happened(event.name, event.args, exogenous=True)
+        self._end_at_last(event.span)
+
+    def _end_at_last(self, span: Span) -> None:
+        if self.played.actions + self.played.events >= LONGEST:
+            raise failed(f"scenario `{self.scenario.name}` does not end: {LONGEST} actions and events", span)

@@ -1,0 +1,271 @@
+"""Successor state axioms, translated into the effects that say the same.
+
+A line ``after a(x, y) := e when c`` of an axiom for f(x) becomes an effect of the action a: what the pattern demands of
+the action's arguments, and that no earlier line for the same action fits, goes into the effect's condition; a parameter
+of the head that the pattern does not mention runs over its type.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from golc.diagnostics import Code, Findings, Label
+from golc.syntax import tree
+from golc.theory.context import Context, Signature
+from golc.theory.elaborate_names import arity_fits, doing, unknown_fluent
+from golc.theory.elaborate_terms import fitting, formula
+from golc.theory.expectations import broken
+from golc.theory.fitting import BROKEN, describe, includes, overlap
+from golc.theory.relations import equality
+from golc.theory.scope import Kind, Local, Scope
+from golc.theory.terms import Binder, Literal, Membership, Operation, Operator, Term, Variable
+from golc.theory.theory import Action, Effect, Parameter
+from golc.theory.types import BOOL, Type
+
+
+def with_axioms(context: Context, nodes: Sequence[tree.Axiom], actions: Mapping[str, Action]) -> dict[str, Action]:
+    """The actions with the effects that axioms describe; what is wrong with an axiom is a finding."""
+    effects: dict[str, list[Effect]] = {}
+    described: dict[str, tree.Axiom] = {}
+    for node in nodes:
+        signature = _head(context, node)
+        if signature is None:
+            continue
+        name = node.fluent.text
+        if name in described:
+            labels = (Label(described[name].fluent.span, "the first axiom"),)
+            message = f"fluent `{name}` has two axioms"
+            context.error(Code.DUPLICATE, message, node.fluent.span, "a second one", labels=labels)
+        described.setdefault(name, node)
+        _not_by_causes(context, node, actions)
+        for action, effect in _Axiom(context, node, signature).effects():
+            effects.setdefault(action, []).append(effect)
+    return {
+        name: replace(action, effects=(*action.effects, *effects.get(name, ()))) for name, action in actions.items()
+    }
+
+
+def _not_by_causes(context: Context, node: tree.Axiom, actions: Mapping[str, Action]) -> None:
+    name = node.fluent.text
+    clauses = [effect for action in actions.values() for effect in action.effects if effect.fluent == name]
+    if clauses:
+        context.error(
+            Code.MISPLACED_CLAUSE,
+            f"fluent `{name}` is described by an axiom and by `causes`",
+            node.fluent.span,
+            "an axiom says everything about a fluent",
+            help="use one of the two",
+            labels=tuple(Label(effect.span, "changes it, too") for effect in clauses[:5]),
+        )
+
+
+def _head(context: Context, node: tree.Axiom) -> Signature | None:
+    """The fluent that an axiom describes; its parameters are names without types."""
+    name = node.fluent
+    entry = context.names.values.get(name.text)
+    if entry is None:
+        unknown_fluent(context, name, len(node.parameters))
+        return None
+    if entry.kind is not Kind.FLUENT:
+        labels = (Label(entry.span, "declared here"),)
+        message = f"`{entry.name}` is {entry.kind.phrase}, and an axiom describes a fluent"
+        context.error(Code.MISUSED_NAME, message, name.span, "a fluent is needed here", labels=labels)
+        return None
+    seen: dict[str, tree.Ident] = {}
+    for parameter in node.parameters:
+        if parameter.text in seen:
+            labels = (Label(seen[parameter.text].span, "first here"),)
+            message = f"two parameters have the name `{parameter.text}`"
+            context.error(Code.DUPLICATE, message, parameter.span, "the same name again", labels=labels)
+        seen.setdefault(parameter.text, parameter)
+    head = tree.Apply(name, span=name.span)
+    fits = arity_fits(context, head, entry, len(node.parameters)) and len(seen) == len(node.parameters)
+    return context.signature(entry) if fits else None
+
+
+@dataclass(frozen=True)
+class _Line:
+    """An ``after`` line whose action is known."""
+
+    node: tree.After
+    action: str
+    parameters: tuple[Parameter, ...]
+
+
+@dataclass(frozen=True)
+class _Case:
+    """What a line demands, in the scope of an effect: of the arguments (in order), and by its ``when``."""
+
+    scope: Scope
+    demands: tuple[Term, ...]
+    condition: Term | None
+
+    def conditions(self) -> tuple[Term, ...]:
+        return self.demands if self.condition is None else (*self.demands, self.condition)
+
+
+class _Axiom:
+    """The lines of an axiom, and what they mean."""
+
+    def __init__(self, context: Context, node: tree.Axiom, signature: Signature) -> None:
+        self.context = context
+        self.node = node
+        self.signature = signature
+        self.heads = {name.text: index for index, name in enumerate(node.parameters)}
+
+    def effects(self) -> list[tuple[str, Effect]]:
+        """An effect for each line that has a meaning, with the name of its action."""
+        earlier: dict[str, list[_Line]] = {}
+        found = []
+        for case in self.node.cases:
+            line = self.line(case)
+            if line is None:
+                continue
+            effect = self.effect(line, earlier.get(line.action, ()))
+            if effect is not None:
+                earlier.setdefault(line.action, []).append(line)
+                found.append((line.action, effect))
+        return found
+
+    def line(self, node: tree.After) -> _Line | None:
+        context, pattern = self.context, node.pattern
+        entry = doing(context, pattern.action, len(pattern.args), (Kind.ACTION, Kind.EXOGENOUS))
+        if entry is not None and entry.kind is Kind.PROCEDURE:
+            labels = (Label(entry.span, "declared here"),)
+            message = f"`{entry.name}` is a procedure, and an axiom speaks of actions"
+            context.error(Code.MISUSED_NAME, message, pattern.action.span, "not an action", labels=labels)
+            return None
+        signature = None if entry is None else context.signature(entry)
+        if entry is None or signature is None or not arity_fits(context, pattern, entry, len(pattern.args)):
+            return None
+        if BROKEN in [parameter.type for parameter in (*signature.parameters, *self.signature.parameters)]:
+            return None
+        return _Line(node, entry.name, signature.parameters)
+
+    def effect(self, line: _Line, earlier: Sequence[_Line]) -> Effect | None:
+        """The effect of a line, below the earlier ones for the same action."""
+        node = line.node
+        heads, binders = self.head_variables(line)
+        case = self.case(line, line, heads)
+        value = self.value(case.scope, node)
+        if value is None or any(term.type is BROKEN for term in (*case.conditions(), value)):
+            return None
+        conditions = [*case.demands]
+        for other in earlier:
+            before = self.quietly(other, line, heads)
+            if before is None or _exclude(case.demands, before.demands):
+                continue
+            fits = before.conditions()
+            if not fits:
+                return None  # the earlier line decides in every case
+            conditions.append(Operation(Operator.NOT, (_all(fits),), type=BOOL, span=other.node.span))
+        where = _all(tuple(conditions)) if conditions else None
+        fluent = self.signature.entry.name
+        return Effect(binders, where, fluent, heads, value, case.condition, span=node.span)
+
+    def head_variables(self, line: _Line) -> tuple[tuple[Variable, ...], tuple[Binder, ...]]:
+        """What each parameter of the head is in the effect: an argument of the action, or a variable over its type.
+
+        An argument has the parameter's type here, for whatever else it may be is excluded by a demand.
+        """
+        places: dict[str, int] = {}
+        for place, arg in enumerate(line.node.pattern.args):
+            if isinstance(arg, tree.Ident) and arg.text in self.heads:
+                places.setdefault(arg.text, place)
+        level = len(line.parameters)
+        heads: list[Variable] = []
+        binders: list[Binder] = []
+        for name, parameter in zip(self.node.parameters, self.signature.parameters, strict=True):
+            if name.text in places:
+                heads.append(Variable(places[name.text], name.text, type=parameter.type, span=name.span))
+            else:
+                bound = Variable(level, name.text, type=parameter.type, span=name.span)
+                binders.append(Binder(bound))
+                heads.append(bound)
+                level += 1
+        return tuple(heads), tuple(binders)
+
+    def quietly(self, other: _Line, line: _Line, heads: tuple[Variable, ...]) -> _Case | None:
+        """What an earlier line demands, seen from a later one; what is wrong with it has been said. None: it is wrong,
+        which leaves no theory anyway."""
+        outer, self.context.findings = self.context.findings, Findings()
+        try:
+            found = self.case(other, line, heads)
+        finally:
+            self.context.findings = outer
+        return None if any(term.type is BROKEN for term in found.conditions()) else found
+
+    def case(self, line: _Line, within: _Line, heads: tuple[Variable, ...]) -> _Case:
+        """What ``line`` demands where the head's parameters are ``heads``, which the effect of ``within`` has made."""
+        level = max([len(within.parameters), *(head.level + 1 for head in heads)])
+        names = zip(self.node.parameters, heads, strict=True)
+        bound = {name.text: Local(head, name.span) for name, head in names}
+        demands: list[Term] = []
+        for place, (arg, parameter) in enumerate(zip(line.node.pattern.args, line.parameters, strict=True)):
+            given = Variable(place, parameter.name, type=parameter.type, span=arg.span)
+            if isinstance(arg, tree.Ident) and self.is_new(arg.text, bound):
+                bound[arg.text] = Local(given, arg.span)
+            elif isinstance(arg, tree.Ident) and arg.text in bound:
+                demands += self.same(given, bound[arg.text].variable, arg)
+            else:
+                demands.append(self.constant(given, arg, f"parameter `{parameter.name}` of `{line.action}`"))
+        scope = Scope(bound, level)
+        node = line.node.condition
+        condition = None if node is None else formula(self.context, scope, node, "`when`")
+        return _Case(scope, tuple(demands), condition)
+
+    def is_new(self, name: str, bound: Mapping[str, Local]) -> bool:
+        """Whether a name in a pattern is bound there: it is neither bound already nor a constant."""
+        entry = self.context.names.values.get(name)
+        return name not in bound and (entry is None or entry.kind not in (Kind.SYMBOL, Kind.CONSTANT))
+
+    def same(self, given: Variable, other: Variable, arg: tree.Ident) -> list[Term]:
+        """The demand that an argument is what its name stands for already; of an argument that is the parameter of the
+        head itself, that it is of the parameter's type."""
+        if not overlap(given.type, other.type):
+            message = f"`{arg.text}` is of type {describe(other.type)}, and here of type {describe(given.type)}"
+            self.context.error(Code.TYPE_MISMATCH, message, arg.span, "their types have nothing in common")
+            return [broken(arg.span)]
+        if given.level != other.level:
+            return [Operation(Operator.EQUAL, (given, other), type=BOOL, span=arg.span)]
+        if given.type.finite and includes(other.type, given.type):
+            return []
+        return [Membership(given, other.type, type=BOOL, span=arg.span)]
+
+    def constant(self, given: Variable, arg: tree.Ident | tree.Number | tree.Truth | tree.Nothing, what: str) -> Term:
+        node: tree.Expr = tree.Apply(arg, (), span=arg.span) if isinstance(arg, tree.Ident) else arg
+        value = fitting(self.context, Scope(), node, given.type, what)
+        return equality(self.context, Operator.EQUAL, given, value, arg.span)
+
+    def value(self, scope: Scope, node: tree.After) -> Term | None:
+        match node.value:
+            case tree.Unknown():
+                self.context.unsupported("`unknown` as a value is", node.value.span)
+                return None
+            case tree.OneOf():
+                self.context.unsupported("`one of` as a value is", node.value.span)
+                return None
+            case value:
+                fluent = self.signature.entry.name
+                return fitting(self.context, scope, value, self.signature.type, f"fluent `{fluent}`")
+
+
+def _exclude(one: Sequence[Term], other: Sequence[Term]) -> bool:
+    """Whether two lines demand different constants in one place, so that they never fit together."""
+    constants = dict(_constants(one))
+    return any(place in constants and constants[place] != value for place, value in _constants(other))
+
+
+def _constants(demands: Sequence[Term]) -> list[tuple[int, tuple[Type, object]]]:
+    return [
+        (place.level, (place.type, value.value))
+        for demand in demands
+        if isinstance(demand, Operation) and demand.op is Operator.EQUAL
+        for place, value in [demand.args]
+        if isinstance(place, Variable) and isinstance(value, Literal)
+    ]
+
+
+def _all(terms: tuple[Term, ...]) -> Term:
+    return terms[0] if len(terms) == 1 else Operation(Operator.AND, terms, type=BOOL, span=terms[0].span)
