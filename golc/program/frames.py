@@ -12,6 +12,7 @@ from golc.program.nodes import Node
 
 if TYPE_CHECKING:
     from golc.program.concurrency import Interrupts
+    from golc.program.rules import Rule
     from golc.program.program import Program
 
 
@@ -99,6 +100,34 @@ class Handler(Frame):
     def wrap(self, program: Program, residual: Node) -> Node:
         bodies = (*self.bodies[: self.index], residual, *self.bodies[self.index + 1 :])
         return program.interrupts(self.rule, self.env, bodies)
+
+
+class Copy(Frame):
+    """The part is one copy beside the iteration it was made from."""
+
+    __slots__ = ("node", "rule")
+
+    def __init__(self, rule: Rule, node: Node, outer: Frame | None) -> None:
+        super().__init__(outer)
+        self.rule = rule
+        self.node = node
+
+    def wrap(self, program: Program, residual: Node) -> Node:
+        return program.branches(self.rule, (residual, self.node))
+
+
+class Guarded(Frame):
+    """The part is the body of a ``guard``."""
+
+    __slots__ = ("env", "rule")
+
+    def __init__(self, rule: Rule, env: tuple[object, ...], outer: Frame | None) -> None:
+        super().__init__(outer)
+        self.rule = rule
+        self.env = env
+
+    def wrap(self, program: Program, residual: Node) -> Node:
+        return residual if residual is program.nil else program.node(self.rule, (self.env, residual))
 
 
 def resume(program: Program, residual: Node, frame: Frame | None) -> Node:

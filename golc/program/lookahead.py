@@ -11,8 +11,9 @@ from golc.program.walks import Proof, Walk
 class Search(Rule):
     """*Σ(δ)*: online, the first step of a way to the end of the block; look-ahead sees through it."""
 
-    def __init__(self, span: Span, body: Rule) -> None:
+    def __init__(self, span: Span, how: How, body: Rule) -> None:
         super().__init__(span)
+        self.how = how
         self.body = body
         self.may_finish = body.may_finish
 

@@ -339,6 +339,56 @@ class Star(Rule):
         return True
 
 
+class BoundedStar(Rule):
+    """*δ\\** with at most so many rounds; the bound is evaluated with the first."""
+
+    def __init__(self, span: Span, limit: Evaluate, body: Rule) -> None:
+        super().__init__(span)
+        self.limit = limit
+        self.rounds = Rounds(span, body)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        walk.push(walk.machine.program.node(self.rounds, (node.operands, self.limit(walk.state, node.operands))))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return True
+
+
+class Rounds(Rule):
+    """The rounds that are left of a bounded iteration: operands environment and number."""
+
+    def __init__(self, span: Span, body: Rule) -> None:
+        super().__init__(span)
+        self.body = body
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        env, left = node.operands
+        if left > 0:
+            program = walk.machine.program
+            walk.push_inside(program.at(self.body, env), Then(program.node(self, (env, left - 1)), walk.outer))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return True
+
+
+class For(Rule):
+    """The block once for each value in order, with its condition asked when its turn comes. Its nodes are sequences."""
+
+    def __init__(self, span: Span, values: tuple[Env, ...], round_: Rule) -> None:
+        super().__init__(span)
+        self.values = values
+        self.round = round_
+        self.may_finish = round_.may_finish or not values
+
+    def instance(self, program: Program, env: Env) -> Node:
+        node = program.nil
+        for value in reversed(self.values):
+            node = program.sequence(program.at(self.round, (*env, *value)), node)
+        return node
+
+
 class Let(Rule):
     """A name for a value, which is evaluated with the first transition of the body."""
 

@@ -126,9 +126,10 @@ class Machine:
         """The rest of a path by the same choices from another state, if they still lead to the end."""
         labels: list[Label] = []
         states = [state]
-        for node, residual in pairwise(path.programs[index:]):
-            label = next((label for label, to in self.ahead.transitions(node, state) if to is residual), None)
-            if label != path.labels[index + len(labels)] or label is None:
+        for (node, residual), taken in zip(pairwise(path.programs[index:]), path.labels[index:], strict=True):
+            transitions = self.ahead.transitions(node, state)
+            label = next((label for label, to in transitions if to is residual and label == taken), None)
+            if label is None:
                 return None
             state = self.successor(state, label)
             labels.append(label)

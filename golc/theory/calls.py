@@ -30,7 +30,10 @@ def parts(statement: Statement) -> tuple[Statement, ...]:
             typed.While(body=body)
             | typed.Pick(body=body)
             | typed.Star(body=body)
+            | typed.For(body=body)
             | typed.Let(body=body)
+            | typed.TogetherStar(body=body)
+            | typed.Guard(body=body)
             | typed.Search(body=body)
         ):
             return (body,)
