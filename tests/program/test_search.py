@@ -56,6 +56,20 @@ def test_the_way_is_kept_if_its_choices_still_lead_to_the_end(start: Start) -> N
     assert program.take().event("set_x", 5).run() == ["inc", "a"]
 
 
+def test_a_choice_is_kept_though_another_leads_to_the_same_program(start: Start) -> None:
+    program = start("""
+        search:
+            inc
+            choose:
+                off(1)
+            or:
+                off(2)
+            test not on(2)
+    """)
+    assert program.run() == ["inc", "off(2)"]
+    assert program.take().event("set_x", 4).run() == ["off(2)"]
+
+
 def test_the_rest_is_searched_anew_if_the_choices_lead_nowhere(start: Start) -> None:
     program = start("""
         search:
