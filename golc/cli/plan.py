@@ -25,6 +25,8 @@ EVERY = 10**12
 @click.argument("file", type=click.Path())
 @click.argument("procedure", metavar="[PROC]", default="control")
 @click.option("--first", is_flag=True, help="One plan, the first in program order; this is the default.")
+@click.option("--shortest", is_flag=True, help="One plan with the fewest actions.")
+@click.option("--cheapest", is_flag=True, help="One plan whose actions cost the least in sum.")
 @click.option(
     "--all",
     "most",
@@ -49,6 +51,8 @@ def command(
     file: str,
     procedure: str,
     first: bool,
+    shortest: bool,
+    cheapest: bool,
     most: int | None,
     steps: int | None,
     seconds: float | None,
@@ -71,12 +75,14 @@ def command(
     from golc.planning.limits import Limits
     from golc.planning.planner import Planning, executable
     from golc.runtime.calls import read_procedure
+    from golc.theory.statements import Strategy
 
-    if first and most is not None:
-        raise click.UsageError("--first and --all exclude each other")
+    _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
+    strategy = Strategy.SHORTEST if shortest else Strategy.CHEAPEST if cheapest else Strategy.FIRST
     theory = load(file, constants)
     call = read_procedure(theory, procedure)
-    planning = Planning(executable(theory, call.action, call.args), Limits(steps, nodes, seconds), most is not None)
+    limits = Limits(steps, nodes, seconds)
+    planning = Planning(executable(theory, call.action, call.args), limits, most is not None, strategy)
     with _writer(output) as write:
         listing = _Json(write) if format_ == "json" else _Text(write, numbered=most is not None)
         for plan in islice(planning, most):
@@ -87,6 +93,13 @@ def command(
     if outcome.plans and most is not None and outcome.plans >= most:
         return DONE
     return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
+
+
+def _only_one(given: Mapping[str, bool]) -> None:
+    """A usage error if two ways to choose among plans are given."""
+    names = [name for name, is_given in given.items() if is_given]
+    if len(names) > 1:
+        raise click.UsageError(f"{names[0]} and {names[1]} exclude each other")
 
 
 @contextmanager
@@ -127,13 +140,18 @@ class _Text:
 
 
 class _Json:
-    """One object: ``plans`` (lists of ``{"action": name, "args": [...]}``), ``outcome``, ``gave_up``, ``expanded``."""
+    """One object: ``plans`` (lists of ``{"action": name, "args": [...]}``), ``outcome``, ``gave_up``, ``expanded``.
+
+    ``cost`` is that of the cheapest plan, if it was asked for.
+    """
 
     def __init__(self, write: Callable[[str], None]) -> None:
         self._write = write
         self._plans: list[Any] = []
+        self._cost: int | None = None
 
     def add(self, plan: Plan) -> None:
+        self._cost = plan.cost
         self._plans.append([{"action": action.action, "args": list(action.args)} for action in plan.actions])
 
     def close(self, outcome: Outcome) -> None:
@@ -143,6 +161,7 @@ class _Json:
             "outcome": result,
             "gave_up": outcome.gave_up,
             "plans": self._plans,
+            "cost": self._cost,
             "deepest": [str(action) for action in outcome.stuck],
             "failed": [str(reason) for reason in outcome.reasons],
             "expanded": outcome.expanded,

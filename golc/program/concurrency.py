@@ -1,4 +1,4 @@
-"""*Trans* and *Final* of what runs at the same time: concurrency, priorities, interrupts."""
+"""*Trans* and *Final* of what runs at the same time or is watched: concurrency, priorities, interrupts, guards."""
 
 from __future__ import annotations
 
@@ -44,7 +44,8 @@ class TogetherStar(Rule):
         self.together = Together(span)
 
     def trans(self, walk: Walk, node: Node) -> Found:
-        walk.push_inside(walk.machine.program.at(self.body, node.operands), Copy(self.together, node, walk.outer))
+        body = walk.machine.program.at(self.body, node.operands)
+        walk.push_inside(body, Copy(self.together, node, walk.outer))
         return None
 
     def final(self, proof: Proof, node: Node) -> bool:
@@ -96,7 +97,7 @@ class Branching(Rule):
 
 
 class Guard(Rule):
-    """*gexec(φ, δ)* as written; its nodes are of the rule ``guarded``, with the environment and the block."""
+    """*gexec(φ, δ)* as written; its nodes are of the rule ``guarded``."""
 
     def __init__(self, span: Span, condition: Evaluate, term: Term, body: Rule) -> None:
         super().__init__(span)
@@ -104,30 +105,34 @@ class Guard(Rule):
         self.guarded = GuardedBlock(span, condition, term)
 
     def instance(self, program: Program, env: Env) -> Node:
-        return program.node(self.guarded, (env, program.at(self.body, env)))
+        return self.guarded.around(program, env, program.at(self.body, env))
 
 
 class GuardedBlock(Rule):
-    """A step of the block only while the condition holds; over when it does not."""
+    """A step of the block only while the condition holds; over when it does not. Operands environment and block."""
 
     def __init__(self, span: Span, condition: Evaluate, term: Term) -> None:
         super().__init__(span)
         self.condition = condition
         self.term = term
 
+    def around(self, program: Program, env: Env, block: Node) -> Node:
+        """The node of a block; one that is over needs no guard."""
+        return block if block is program.nil else program.node(self, (env, block))
+
     def trans(self, walk: Walk, node: Node) -> Found:
-        env, body = node.operands
+        env, block = node.operands
         if self.condition(walk.state, env):
-            walk.push_inside(body, Guarded(self, env, walk.outer))
+            walk.push_inside(block, Guarded(self, env, walk.outer))
         else:
             walk.machine.blame(self, "false", self.term, env)
         return None
 
     def final(self, proof: Proof, node: Node) -> bool:
-        env, body = node.operands
+        env, block = node.operands
         if not self.condition(proof.state, env):
             return True
-        proof.require(body)
+        proof.require(block)
         return False
 
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from golc.program.nodes import Node
+from golc.theory.types import Value
 
 if TYPE_CHECKING:
-    from golc.program.concurrency import Interrupts
-    from golc.program.rules import Rule
+    from golc.program.concurrency import GuardedBlock, Interrupts, Together
     from golc.program.program import Program
 
 
@@ -107,7 +107,7 @@ class Copy(Frame):
 
     __slots__ = ("node", "rule")
 
-    def __init__(self, rule: Rule, node: Node, outer: Frame | None) -> None:
+    def __init__(self, rule: Together, node: Node, outer: Frame | None) -> None:
         super().__init__(outer)
         self.rule = rule
         self.node = node
@@ -121,13 +121,13 @@ class Guarded(Frame):
 
     __slots__ = ("env", "rule")
 
-    def __init__(self, rule: Rule, env: tuple[object, ...], outer: Frame | None) -> None:
+    def __init__(self, rule: GuardedBlock, env: tuple[Value, ...], outer: Frame | None) -> None:
         super().__init__(outer)
         self.rule = rule
         self.env = env
 
     def wrap(self, program: Program, residual: Node) -> Node:
-        return residual if residual is program.nil else program.node(self.rule, (self.env, residual))
+        return self.rule.around(program, self.env, residual)
 
 
 def resume(program: Program, residual: Node, frame: Frame | None) -> Node:

@@ -10,6 +10,7 @@ from typing import Protocol
 from golc.program.blame import Blamed, Blocked, explain
 from golc.program.frames import resume
 from golc.program.labels import Act, Label, Transition, Wait
+from golc.program.lookahead import ANY, Request
 from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.rules import Found, Rule
@@ -20,17 +21,32 @@ from golc.situation.layout import State
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """A way to the end of a program: ``programs`` and ``states`` have one element more than ``labels``."""
+    """A way to the end of a program: ``programs`` and ``states`` have one element more than ``labels``.
+
+    ``request``: what it answers.
+    """
 
     programs: tuple[Node, ...]
     labels: tuple[Label, ...]
     states: tuple[State, ...]
+    request: Request = ANY
+
+    def rest(self, index: int) -> Request:
+        """What is wanted of a way from the place that so many steps have led to."""
+        return self.request.after(self.labels[:index])
+
+
+@dataclass(frozen=True)
+class NoPath:
+    """There is no way; if a limit kept it from being found, ``limit`` says which."""
+
+    limit: str | None = None
 
 
 class Planner(Protocol):
     """Finds a way from a program and a state to a final program, with at least one step."""
 
-    def __call__(self, machine: Machine, node: Node, state: State) -> Path | None: ...
+    def __call__(self, machine: Machine, node: Node, state: State, request: Request) -> Path | NoPath: ...
 
 
 class Machine:
@@ -46,7 +62,7 @@ class Machine:
         self.lookahead = ahead is None
         self.ahead: Machine = ahead or self
         self._planner = planner
-        self._paths: dict[tuple[Node, State], Path | None] = {}
+        self._paths: dict[tuple[Node, State, Request], Path | NoPath] = {}
         self._blamed: list[Blamed] | None = None
 
     def transitions(self, node: Node, state: State) -> Iterator[Transition]:
@@ -98,24 +114,25 @@ class Machine:
         if self._blamed is not None:
             self._blamed.append(Blamed(rule, reason, details))
 
-    def begin_search(self, rule: Rule, body: Node, state: State) -> Found:
+    def begin_search(self, rule: Rule, body: Node, state: State, request: Request) -> Found:
         """The first step of a way to the end of a ``search`` block."""
-        path = self._path(body, state)
-        if path is None:
-            self.blame(rule, "no way")
+        path = self._path(body, state, request)
+        if isinstance(path, NoPath):
+            self.blame(rule, "no way", path)
             return None
         return self._step(path, 0)
 
     def follow(self, rule: Rule, path: Path, index: int, state: State) -> Found:
         """The next step of a path, which is replayed, or the rest searched anew, if the state is not as expected."""
-        current: Path | None = path
+        current: Path | NoPath = path
         done = index
         if path.states[index] != state:
-            current, index = self._replayed(path, index, state) or self._path(path.programs[index], state), 0
-        if current is not None and index == len(current.labels):
-            current, index = self._path(current.programs[-1], state), 0
-        if current is None:
-            self.blame(rule, "lost", path, done)
+            replayed = self._replayed(path, index, state)
+            current, index = replayed or self._path(path.programs[index], state, path.rest(index)), 0
+        if isinstance(current, Path) and index == len(current.labels):
+            current, index = self._path(current.programs[-1], state, current.rest(index)), 0
+        if isinstance(current, NoPath):
+            self.blame(rule, "lost", path, done, current)
             return None
         return self._step(current, index)
 
@@ -136,13 +153,13 @@ class Machine:
             states.append(state)
         if not self.ahead.final(path.programs[-1], state):
             return None
-        return Path(path.programs[index:], tuple(labels), tuple(states))
+        return Path(path.programs[index:], tuple(labels), tuple(states), path.rest(index))
 
-    def _path(self, node: Node, state: State) -> Path | None:
+    def _path(self, node: Node, state: State, request: Request) -> Path | NoPath:
         """What the planner finds; remembered, for a blocked program is asked again and again in the same state."""
-        key = (node, state)
+        key = (node, state, request)
         if key not in self._paths:
             if len(self._paths) >= 64:
                 self._paths.pop(next(iter(self._paths)))
-            self._paths[key] = self._planner(self.ahead, node, state)
+            self._paths[key] = self._planner(self.ahead, node, state, request)
         return self._paths[key]

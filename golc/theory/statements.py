@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from typing import TypeAlias
 
 from golc.diagnostics import NOWHERE, Span
@@ -25,6 +26,10 @@ class Strategy(Enum):
     """The fewest primitive actions."""
     CHEAPEST = "cheapest"
     """The least sum of the actions' costs."""
+
+
+Duration: TypeAlias = Term | Fraction
+"""Seconds: an integer term, or a number with decimals."""
 
 
 @dataclass(frozen=True)
@@ -159,7 +164,7 @@ class Search(Base):
 
     strategy: Strategy
     steps: Term | None
-    seconds: Term | None
+    seconds: Duration | None
     body: Statement
 
 
