@@ -89,7 +89,7 @@ def command(
             listing.add(plan)
         listing.close(planning.outcome)
     outcome = planning.outcome
-    _report(console, str(call), outcome, stats)
+    _report(console, str(call), outcome, stats, listing.cost)
     if outcome.plans and most is not None and outcome.plans >= most:
         return DONE
     return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
@@ -127,9 +127,11 @@ class _Text:
         self._write = write
         self._numbered = numbered
         self._count = 0
+        self.cost: int | None = None
 
     def add(self, plan: Plan) -> None:
         self._count += 1
+        self.cost = plan.cost
         if self._numbered:
             self._write(f"# plan {self._count}: {_actions(len(plan.actions))}")
         for action in plan.actions:
@@ -148,10 +150,10 @@ class _Json:
     def __init__(self, write: Callable[[str], None]) -> None:
         self._write = write
         self._plans: list[Any] = []
-        self._cost: int | None = None
+        self.cost: int | None = None
 
     def add(self, plan: Plan) -> None:
-        self._cost = plan.cost
+        self.cost = plan.cost
         self._plans.append([{"action": action.action, "args": list(action.args)} for action in plan.actions])
 
     def close(self, outcome: Outcome) -> None:
@@ -161,7 +163,7 @@ class _Json:
             "outcome": result,
             "gave_up": outcome.gave_up,
             "plans": self._plans,
-            "cost": self._cost,
+            "cost": self.cost,
             "deepest": [str(action) for action in outcome.stuck],
             "failed": [str(reason) for reason in outcome.reasons],
             "expanded": outcome.expanded,
@@ -169,7 +171,7 @@ class _Json:
         self._write(json.dumps(document, indent=2))
 
 
-def _report(console: Console, program: str, outcome: Outcome, stats: bool) -> None:
+def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: int | None) -> None:
     if not outcome.plans:
         verdict = outcome.gave_up or "proven: it cannot be executed to its end"
         console.err(f"no plan for `{program}`: {verdict}")
@@ -184,8 +186,9 @@ def _report(console: Console, program: str, outcome: Outcome, stats: bool) -> No
         console.note(f"{_plans(outcome.plans)}")
     if stats:
         rate = outcome.expanded / outcome.seconds if outcome.seconds else 0
+        found = _plans(outcome.plans) + ("" if cost is None else f" of cost {cost}")
         console.err(
-            f"{_plans(outcome.plans)}, {outcome.expanded} pairs of program and state expanded in "
+            f"{found}, {outcome.expanded} pairs of program and state expanded in "
             f"{outcome.seconds:.3f} s ({rate:,.0f} a second)"
         )
 

@@ -134,3 +134,52 @@ def test_an_error_while_planning_has_its_place(tmp_path: Path) -> None:
     assert "GL101" in done.stderr
     assert f"{domain}:5:17" in done.stderr
     assert "x would become 4, which is outside its type t (1..3)" in done.stderr
+
+
+CHOICE = """domain choice
+action walk(n: 1..3):
+    cost 2 * n
+action ride:
+    cost 5
+proc control:
+    choose:
+        walk(1)
+        walk(2)
+    or:
+        walk(1)
+        walk(1)
+        walk(1)
+        test false
+    or:
+        ride
+        skip
+    or:
+        walk(1)
+        walk(1)
+"""
+
+
+def test_the_shortest_and_the_cheapest_plan(tmp_path: Path) -> None:
+    file = tmp_path / "choice.gl"
+    file.write_text(CHOICE)
+    assert golc("plan", str(file)).stdout.split() == ["walk(1)", "walk(2)"]
+    assert golc("plan", str(file), "--shortest").stdout.split() == ["ride"]
+    done = golc("plan", str(file), "--cheapest", "--stats")
+    assert done.stdout.split() == ["walk(1)", "walk(1)"]
+    assert done.stderr.startswith("1 plan of cost 4, ")
+    document = json.loads(golc("plan", str(file), "--cheapest", "--format", "json").stdout)
+    assert (document["outcome"], document["cost"]) == ("found", 4)
+
+
+def test_a_plan_within_its_bound_is_a_success(tmp_path: Path) -> None:
+    file = tmp_path / "choice.gl"
+    file.write_text(CHOICE)
+    for strategy in ("--first", "--shortest", "--cheapest"):
+        done = golc("plan", str(file), strategy, "--steps", "1")
+        assert (done.returncode, done.stdout, done.stderr) == (0, "ride\n", "1 plan\n")
+
+
+def test_strategies_exclude_each_other() -> None:
+    done = golc("plan", ELEVATOR, "--shortest", "--cheapest")
+    assert done.returncode == 2
+    assert "--shortest and --cheapest exclude each other" in done.stderr
