@@ -9,7 +9,7 @@ BIN = $(VENV)/bin
 demo: $(VENV)/ready nqc
 	$(BIN)/golc check examples/delivery/delivery.gl
 	$(BIN)/golc gen-nqc examples/delivery/delivery.gl --compile
-	$(BIN)/golc run examples/delivery/delivery.gl --events examples/delivery/demo.events --speed 20 --stop-when-idle 10
+	$(BIN)/golc run examples/delivery/delivery.gl --events examples/delivery/demo.events --speed 10 --stop-when-idle 10
 
 test: $(VENV)/ready nqc
 	$(BIN)/ruff format --check .

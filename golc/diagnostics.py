@@ -227,6 +227,11 @@ class Findings:
         return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
 
 
+def counted(number: int, what: str) -> str:
+    """``1 error``, ``2 errors``: a number of things, for a message."""
+    return f"{number} {what}{'s' * (number != 1)}"
+
+
 class GolcError(Exception):
     """The base of every error that golc raises on purpose; ``exit_code`` is what the command line ends with."""
 

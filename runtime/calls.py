@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from golc.diagnostics import NOWHERE, Code, Diagnostic, Findings, Source, Span, UserError
 from golc.syntax import tree
 from golc.syntax.parse import parse_expression
-from golc.theory.suggest import closest
+from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory, Parameter, Procedure
 from golc.theory.types import Enumeration, Interval, Optional, Type, Value, show_call
 
@@ -95,12 +95,6 @@ def describe(type_: Type) -> str:
             return f"{describe(base)} or none"
         case _:
             return str(type_)
-
-
-def did_you_mean(name: str, candidates: Iterable[str]) -> str | None:
-    """A proposal for a misspelt name."""
-    best = closest(name, candidates)
-    return None if best is None else f"did you mean `{best}`?"
 
 
 def parse_at(where: Span, findings: Findings) -> tree.Expr | None:

@@ -15,6 +15,7 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
 from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
+from golc.planning.limits import GivenUpSearchError
 from golc.planning.planner import Executable
 from golc.program.blame import Blocked as Why
 from golc.program.circles import CIRCLES, runs_in_circles
@@ -40,6 +41,7 @@ from golc.runtime.happenings import (
 from golc.runtime.inbox import Inbox, Source
 from golc.runtime.intake import Intake
 from golc.runtime.policy import Policy
+from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
 from golc.situation.layout import State
 from golc.theory.types import show, show_call
@@ -72,6 +74,7 @@ class Executive(Intake):
         super().__init__(executable.dynamics, inbox, router.devices, policy or Policy(), clock)
         self.machine = executable.machine
         self._node = executable.node
+        self._give_up = executable.look_ahead.give_up
         self._router = router
         self._sources = tuple(sources)
         events = [action for action in self.dynamics.theory.actions.values() if action.exogenous]
@@ -103,14 +106,15 @@ class Executive(Intake):
     def _finish(self, opened: Sequence[Device], end: End, message: str) -> None:
         """Stop everything, then tell; an observer that fails now can keep nobody from being told."""
         self._engaged = None
-        unstopped = release(self._sources, opened)
-        ended = Ended(self.clock.now(), end, message, self.state, self.actions, self.exogenous, unstopped)
-        for observer in self.observers:
-            with suppress(OSError, DeviceError):
-                observer(ended)
+        with undisturbed():
+            unstopped = release(self._sources, opened)
+            ended = Ended(self.clock.now(), end, message, self.state, self.actions, self.exogenous, unstopped)
+            for observer in self.observers:
+                with suppress(OSError, DeviceError):
+                    observer(ended)
 
     def _loop(self, node: Node) -> tuple[End, str]:
-        items, final, decide = self._inbox.items, self.machine.final, self.machine.decide
+        items, final, decide, give_up = self._inbox.items, self.machine.final, self.machine.decide, self._give_up
         quiet = 0
         while True:
             if items and self.take_in():
@@ -118,7 +122,13 @@ class Executive(Intake):
                 self._failed.clear()
             if self._verdict is not None:
                 return self._verdict
-            choice = decide(node, self.state, self._failed)
+            self._engaged = give_up
+            try:
+                choice = decide(node, self.state, self._failed)
+            except GivenUpSearchError:
+                continue
+            finally:
+                self._engaged = None
             if choice is None:
                 if final(node, self.state):
                     return End.FINAL, "the program is final"
@@ -154,9 +164,13 @@ class Executive(Intake):
         """Have a device do an action and apply its effects; False if it was not done, or is to be decided anew."""
         if self._policy.confirm is not None and not self._confirmed(label, self._policy.confirm):
             return False
+        after = self.dynamics.progress(self.state, label.action, label.args)  # an error of the theory moves no robot
         device = self._router.device(label.action, label.args)
-        began = self._begin(label, device)
         self._engaged = device.interrupt
+        if self._inbox.commanded:  # since the decision, when nobody was engaged yet whom it could have interrupted
+            self._engaged = None
+            return False
+        began = self._begin(label, device)
         try:
             results = device.perform(label.action, label.args)
         except DeviceError as error:
@@ -164,7 +178,7 @@ class Executive(Intake):
             self._cope(label, error)
             return False
         self._engaged = None
-        self._apply(label, results, began)
+        self._apply(label, after, results, began)
         return True
 
     def _begin(self, label: Act, device: Device) -> float:
@@ -175,10 +189,9 @@ class Executive(Intake):
         self.tell(Begun(began, label.action, label.args, device.label(label.action, label.args), label.span))
         return began
 
-    def _apply(self, label: Act, results: Args, began: float) -> None:
+    def _apply(self, label: Act, after: State, results: Args, began: float) -> None:
         """The effects of an action that was done, then its sensing results."""
         action, args, before = label.action, label.args, self.state
-        after = self.dynamics.progress(before, action, args)
         surprises: Sequence[Surprise] = ()
         if results:
             after, surprises = self.dynamics.assimilate(after, action, args, results)

@@ -13,12 +13,13 @@ from collections.abc import Mapping
 from typing import Literal, cast
 
 from golc.diagnostics import Code, Diagnostic, Findings, Source, Span
-from golc.runtime.calls import Call, did_you_mean, read_exogenous
+from golc.runtime.calls import Call, read_exogenous
 from golc.runtime.clock import Clock
 from golc.runtime.desk import Desk
 from golc.runtime.happenings import Begun, Happening
 from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Reply, Report, end_thread, reporting_thread
 from golc.runtime.schedule import Player, Schedule
+from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory
 
 COMMANDS: Mapping[str, str] = {
@@ -77,7 +78,7 @@ class Lines:
         call = read_exogenous(self._theory, Span(place, 0, len(place.text)), findings)
         if call is None:
             return self._refusal(place, *findings.diagnostics)
-        if not from_operator(self._theory.actions[call.action]):
+        if not from_operator(self._theory, self._theory.actions[call.action]):
             return self._refusal(place, _wrong_source(self._theory.actions[call.action], call))
         return Report(call.action, call.args, self._source)
 
@@ -85,9 +86,10 @@ class Lines:
         return Refusal(place.text, self._source, diagnostics)
 
 
-def from_operator(action: Action) -> bool:
-    """Whether people (at the terminal, over TCP) may report an exogenous action."""
-    return action.exogenous and (not action.sources or "operator" in action.sources)
+def from_operator(theory: BasicActionTheory, action: Action) -> bool:
+    """Whether people (at the terminal, over TCP) may report an exogenous action, whatever the operator is called."""
+    people = {"operator"} | {device.name for device in theory.devices if device.kind == "operator"}
+    return action.exogenous and (not action.sources or not people.isdisjoint(action.sources))
 
 
 def _wrong_source(action: Action, call: Call) -> Diagnostic:
@@ -127,6 +129,7 @@ class Terminal:
     name = "stdin"
 
     def __init__(self, theory: BasicActionTheory, inbox: Inbox, desk: Desk, reply: Reply, descriptor: int = 0) -> None:
+        self._theory = theory
         self._lines = Lines(theory, self.name)
         self._inbox = inbox
         self._desk = desk
@@ -137,7 +140,7 @@ class Terminal:
         self.ended = False
 
     def may_report(self, action: Action) -> bool:
-        return from_operator(action)
+        return from_operator(self._theory, action)
 
     def start(self) -> None:
         self._thread.start()

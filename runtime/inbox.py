@@ -96,14 +96,24 @@ class Inbox:
     def __init__(self) -> None:
         self.items: deque[Item] = deque()
         self.at_once: Callable[[Command], bool] = lambda command: False
+        """Answers a command that cannot wait; whether it did."""
+        self.hasten: Callable[[Command], None] = lambda command: None
+        """Told of a command that is in the queue, and for which what takes long may be given up."""
         self._arrived = threading.Event()
 
     def put(self, item: Item) -> None:
-        """Add an item, or have the command dealt with at once if the loop is busy with something that takes long."""
+        """Add an item, or have the command answered at once if the loop is busy with something that takes long."""
         if isinstance(item, Command) and self.at_once(item):
             return
         self.items.append(item)
         self._arrived.set()
+        if isinstance(item, Command):
+            self.hasten(item)
+
+    @property
+    def commanded(self) -> bool:
+        """Whether the operator wants something."""
+        return any(isinstance(item, Command) for item in tuple(self.items))
 
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until there is an item, at most for some seconds; whether there is one."""

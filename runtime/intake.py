@@ -44,6 +44,7 @@ class Intake:
         self._engaged: Callable[[], None] | None = None
         """Makes what the loop is engaged in give up, while that may take long."""
         inbox.at_once = self._at_once
+        inbox.hasten = self._hasten
 
     def tell(self, happening: Happening) -> None:
         """Tell all observers."""
@@ -148,13 +149,15 @@ class Intake:
         return lines
 
     def _at_once(self, command: Command) -> bool:
-        """Called by the thread of a source: while the loop is engaged, questions are answered at once, and what it is
-        engaged in gives up for a command that stops it."""
-        engaged = self._engaged
-        if engaged is None:
+        """Called by the thread of a source: while the loop is engaged, questions are answered at once."""
+        if self._engaged is None or command.name not in ("state", "history"):
             return False
-        if command.name in ("state", "history"):
-            self._answer(command)
-            return True
-        engaged()
-        return False
+        self._answer(command)
+        return True
+
+    def _hasten(self, command: Command) -> None:
+        """Called by the thread of a source, when a command is in the queue (so that the loop, woken, finds it there):
+        what the loop is engaged in gives up for a command that stops it."""
+        engaged = self._engaged
+        if engaged is not None and command.name in ("abort", "stop"):
+            engaged()

@@ -45,7 +45,7 @@ FORMAT = 1
 
 
 def fingerprint(theory: BasicActionTheory) -> str:
-    """What a theory says, as a number: its text and the values of its constants."""
+    """A short text that differs for theories that differ: made of the file's text and the values of the constants."""
     facts = [theory.source.text, *(f"{name}={constant.value!r}" for name, constant in theory.constants.items())]
     return hashlib.sha256("\0".join(facts).encode()).hexdigest()[:16]
 

@@ -35,7 +35,7 @@ class Listener:
         self._thread = reporting_thread(inbox, self.name, self._run)
 
     def may_report(self, action: Action) -> bool:
-        return from_operator(action)
+        return from_operator(self._theory, action)
 
     def start(self) -> None:
         self._selector.register(self._server, selectors.EVENT_READ)

@@ -190,7 +190,7 @@ class _Session:
             title = self.voice.style.paint(BOLD, f"{self.theory.name}: {self.program}")
             self.voice.write(f"{MARGIN}{title} {where}".rstrip())
         if self.interactive:
-            event = one_of([action for action in self.theory.actions.values() if from_operator(action)])
+            event = one_of([action for action in self.theory.actions.values() if from_operator(self.theory, action)])
             reports = "" if event is None else f"an exogenous action such as {event}, or "
             self.say(f"type {reports}one of " + ", ".join(f"!{name}" for name in COMMANDS))
 

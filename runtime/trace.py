@@ -7,7 +7,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from golc.diagnostics import DeviceError, Diagnostic, Span
+from golc.diagnostics import DeviceError, Diagnostic, Span, counted
 from golc.runtime.happenings import (
     Begun,
     Blocked,
@@ -194,7 +194,8 @@ class Trace:
         good = ended.end in (End.FINAL, End.IDLE, End.STOPPED)
         if self._verbosity < 0 and good:
             return
-        counts = f"{ended.actions} actions and {ended.exogenous} exogenous actions in {ended.time:.1f} s"
+        own, events = counted(ended.actions, "action"), counted(ended.exogenous, "exogenous action")
+        counts = f"{own} and {events} in {ended.time:.1f} s"
         yield ""
         yield self._row(ended.time, GREEN if good else RED, f"end: {ended.message}")
         yield MARGIN + self._style.paint(DIM, counts)

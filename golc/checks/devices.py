@@ -14,12 +14,12 @@ from golc.nqc.userfiles import scan_file, user_file
 from golc.nqc.wire import DEFAULTS, LAST_RANGE
 from golc.nqc.words import LONGEST_NAME, complaint
 from golc.theory.fitting import size
-from golc.theory.suggest import closest
+from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, ByStart, Device, Fixed, Parameter
 
 RCX = "rcx"
-PEOPLE = frozenset({"operator"})
-"""Devices that may report an exogenous action without being declared: there is always someone at the terminal."""
+OPERATOR = "operator"
+"""The kind of device that reports even where none is declared: there is always someone at the terminal."""
 
 
 @dataclass(frozen=True)
@@ -70,12 +70,11 @@ def _check_settings(device: Device, findings: Findings) -> bool:
         rule = SETTINGS.get(setting.name) if device.kind == RCX else None
         if rule is None:
             known = SETTINGS if device.kind == RCX else ()
-            similar = closest(setting.name, known)
             findings.error(
                 Code.DEVICE_SETTING,
                 f"a device `{device.kind}` has no setting `{setting.name}`",
                 setting.span,
-                help=f"did you mean `{similar}`?" if similar else f"there are {', '.join(known) or 'none'}",
+                help=did_you_mean(setting.name, known) or f"there are {', '.join(known) or 'none'}",
             )
         elif not rule.allows(setting.value):
             findings.error(
@@ -156,21 +155,31 @@ def _instances(slots: Iterable[Parameter | Fixed]) -> int | None:
 
 
 def _check_reported(theory: BasicActionTheory, bricks: Iterable[ActionMap], findings: Findings) -> None:
-    """An exogenous action that only certain devices may report is reported by one of them."""
-    by_brick = {entry.action: actions.device for actions in bricks for entry in actions.entries if entry.exogenous}
-    names = {device.kind for device in theory.devices} | {device.name for device in theory.devices}
+    """An exogenous action that only certain devices may report is reported by one of them, and by no other brick."""
+    reported = set()
+    for actions in bricks:
+        for entry in actions.entries:
+            sources = theory.actions[entry.action].sources
+            if not entry.exogenous or not sources or not {RCX, actions.device.name}.isdisjoint(sources):
+                reported.add(entry.action)
+                continue
+            message = f"`{entry.action}` may come only from {' or '.join(sources)}, not from `{actions.device.name}`"
+            findings.error(Code.BINDING, message, entry.span, help="leave this line out, or name this source too")
+    people = {OPERATOR} | {device.name for device in theory.devices if device.kind == OPERATOR}
     for action in theory.actions.values():
-        if not action.exogenous or not action.sources or PEOPLE & set(action.sources):
-            continue
-        if action.name in by_brick or any(source in names - {RCX} for source in action.sources):
-            continue
-        brick = RCX in action.sources and RCX in names
-        findings.error(
-            Code.UNREPORTED,
-            f"no device reports `{action.name}`, which may come only from {' or '.join(action.sources)}",
-            action.span,
-            help=f"write a line `{action.name}` in the brick's block" if brick else "declare the device",
-        )
+        if action.exogenous and action.sources and action.name not in reported and people.isdisjoint(action.sources):
+            message = f"no device reports `{action.name}`, which may come only from {' or '.join(action.sources)}"
+            findings.error(Code.UNREPORTED, message, action.span, help=_reporting_help(theory, action))
+
+
+def _reporting_help(theory: BasicActionTheory, action: Action) -> str:
+    """How an exogenous action that nobody reports gets a source: only bricks and people report anything."""
+    bricks = [device for device in theory.devices if device.kind == RCX]
+    if any(not {RCX, device.name}.isdisjoint(action.sources) for device in bricks):
+        return f"write a line `{action.name}` in the brick's block"
+    if RCX in action.sources:
+        return "declare the device"
+    return f"only bricks and operators report: write `from {RCX}` or `from {OPERATOR}`"
 
 
 def _check_ranges(bricks: list[ActionMap], findings: Findings) -> None:

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
+import errno
 import importlib
 import io
+import os
 import sys
 from collections.abc import Sequence
+from typing import TextIO
 
 import click
 
@@ -20,6 +24,9 @@ COMMANDS = {
     "sim": "golc.cli.sim",
 }
 """Each command's module, which has a click command named ``command``."""
+
+UNWRITABLE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG, errno.EIO)
+"""What it means that standard output takes no more: a full disk, a limit, a terminal that is gone."""
 
 
 class LazyGroup(click.Group):
@@ -54,33 +61,71 @@ def main(arguments: Sequence[str] | None = None) -> None:
 def invoke(arguments: Sequence[str] | None = None) -> int:
     """Run a command and return its exit code; every error that golc raises on purpose is said in one place."""
     sys.setrecursionlimit(EVALUATION)
-    if isinstance(sys.stdout, io.TextIOWrapper):
-        sys.stdout.reconfigure(errors="backslashreplace")  # as stderr does with what its encoding cannot say
+    _open_streams()
     try:
         code = cli.main(args=None if arguments is None else list(arguments), prog_name="golc", standalone_mode=False)
+        sys.stdout.flush()
         return code if isinstance(code, int) else 0
-    except click.exceptions.Exit as exit_:
-        return exit_.exit_code
-    except click.ClickException as error:
-        error.show()
-        return error.exit_code
-    except (click.Abort, KeyboardInterrupt):
-        print("interrupted", file=sys.stderr)
-        return 130
-    except GolcError as error:
-        _say(error)
-        return error.exit_code
-    except BrokenPipeError:
-        return _broken_pipe()
-    except Exception:
-        import traceback
+    except BaseException as error:
+        return _code(error)
+    finally:
+        _let_go(sys.stdout)
+        _let_go(sys.stderr)
 
-        traceback.print_exc()
-        print(
-            "\nThis is a bug in golc. Please report it with the text above and the input that led to it.",
-            file=sys.stderr,
-        )
-        return 70
+
+def _code(error: BaseException) -> int:
+    """Say what went wrong, and the exit code that stands for it."""
+    match error:
+        case click.exceptions.Exit():
+            return error.exit_code
+        case click.ClickException():
+            with contextlib.suppress(OSError):
+                error.show()
+            return error.exit_code
+        case click.Abort() | KeyboardInterrupt():
+            _tell("interrupted")
+            return 130
+        case GolcError():
+            _say(error)
+            return error.exit_code
+        case BrokenPipeError():
+            return 141
+        case SystemExit(code=1) if "_GOLC_COMPLETE" not in os.environ:  # so click ends where nobody reads
+            return 141
+        case OSError(errno=number, filename=None) if number in UNWRITABLE:
+            return _code(DeviceError(f"cannot write the output: {error.strerror}"))
+        case Exception():
+            import traceback
+
+            _tell("".join(traceback.format_exception(error)))
+            _tell("This is a bug in golc. Please report it with the text above and the input that led to it.")
+            return 70
+    raise error
+
+
+def _open_streams() -> None:
+    """Open the standard streams that the caller has closed, so that no other file is taken for one of them."""
+    for descriptor in range(3):
+        try:
+            os.fstat(descriptor)
+        except OSError:
+            os.set_inheritable(os.open(os.devnull, os.O_RDWR), True)  # the lowest that is free: this one
+    if sys.stdout is None:
+        sys.stdout = os.fdopen(1, "w", encoding="utf-8", closefd=False)
+    if sys.stderr is None:
+        sys.stderr = os.fdopen(2, "w", encoding="utf-8", closefd=False)
+    if isinstance(sys.stdout, io.TextIOWrapper):
+        sys.stdout.reconfigure(errors="backslashreplace")  # as stderr does with what its encoding cannot say
+
+
+def _let_go(stream: TextIO) -> None:
+    """Where the last of the output cannot be written, Python is not to complain of it at its end."""
+    try:
+        stream.flush()
+    except OSError:
+        null = os.open(os.devnull, os.O_WRONLY)
+        os.dup2(null, stream.fileno())
+        os.close(null)
 
 
 def _say(error: GolcError) -> None:
@@ -90,9 +135,9 @@ def _say(error: GolcError) -> None:
         case ProgramError(diagnostic=diagnostic):
             _render(diagnostic)
         case _:
-            print(f"error: {error}", file=sys.stderr)
+            _tell(f"error: {error}")
             if isinstance(error, DeviceError) and error.help:
-                print(f"  = help: {error.help}", file=sys.stderr)
+                _tell(f"  = help: {error.help}")
 
 
 def _render(*diagnostics: Diagnostic) -> None:
@@ -100,12 +145,10 @@ def _render(*diagnostics: Diagnostic) -> None:
     from golc.rendering import render
 
     for diagnostic in diagnostics:
-        print(render(diagnostic, color=Console().colored(sys.stderr)), file=sys.stderr)
+        _tell(render(diagnostic, color=Console().colored(sys.stderr)))
 
 
-def _broken_pipe() -> int:
-    """The reader of our output went away: end quietly, as other tools do."""
-    import os
-
-    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-    return 141
+def _tell(text: str) -> None:
+    """Say something on stderr, if anybody can hear it."""
+    with contextlib.suppress(OSError):
+        print(text, file=sys.stderr, flush=True)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import click
 
 from golc.cli.common import Console, console_options, constants_option
+from golc.diagnostics import counted
 
 if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
@@ -69,8 +70,8 @@ def _write_json(console: Console, findings: list[Diagnostic], errors: int, warni
 
 
 def _summary(files: int, errors: int, warnings: int) -> str:
-    found = [_count(number, what) for number, what in ((errors, "error"), (warnings, "warning")) if number]
-    return f"checked {_count(files, 'file')}: {', '.join(found) or 'nothing found'}"
+    found = [counted(number, what) for number, what in ((errors, "error"), (warnings, "warning")) if number]
+    return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}"
 
 
 def _contents(theory: BasicActionTheory | None) -> str:
@@ -82,8 +83,4 @@ def _contents(theory: BasicActionTheory | None) -> str:
         (theory.procedures, "procedure"),
         (theory.devices, "device"),
     )
-    return f"domain {theory.name} with " + ", ".join(_count(len(part), what) for part, what in parts)
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'s' * (number != 1)}"
+    return f"domain {theory.name} with " + ", ".join(counted(len(part), what) for part, what in parts)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import contextlib
+import math
 import os
 import sys
 from collections.abc import Callable, Mapping
@@ -34,13 +36,24 @@ class Console:
         print(text, file=sys.stdout, flush=True)
 
     def err(self, text: str) -> None:
-        """A diagnostic; never silenced."""
-        print(text, file=sys.stderr, flush=True)
+        """A diagnostic; never silenced, but lost where nobody can read it."""
+        with contextlib.suppress(OSError):
+            print(text, file=sys.stderr, flush=True)
 
     def note(self, text: str) -> None:
         """What is good to know; silent under ``-q``."""
         if self.verbosity >= 0:
             self.err(text)
+
+
+class Quantity(click.FloatRange):
+    """A real number within bounds; ``nan``, which is within any, and ``inf`` are none."""
+
+    def convert(self, value: Any, parameter: click.Parameter | None, context: click.Context | None) -> float:
+        number: float = super().convert(value, parameter, context)
+        if not math.isfinite(number):
+            self.fail(f"{value} is not a finite number.", parameter, context)
+        return number
 
 
 def _definitions(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> Mapping[str, str]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TextIO
 
 import click
 
-from golc.cli.common import Console, console_options, constants_option
+from golc.cli.common import Console, Quantity, console_options, constants_option
 
 if TYPE_CHECKING:
     from golc.planning.planner import Outcome, Plan
@@ -32,12 +33,12 @@ EVERY = 10**12
     "most",
     is_flag=False,
     flag_value=EVERY,
-    type=click.IntRange(min=1),
+    type=click.IntRange(1, EVERY),
     metavar="[N]",
     help="Every distinct sequence of actions, once, or the first N of them.",
 )
 @click.option("--steps", type=click.IntRange(min=0), metavar="N", help="At most N actions in a plan.")
-@click.option("--time", "seconds", type=click.FloatRange(min=0), metavar="S", help="Give up after S seconds.")
+@click.option("--time", "seconds", type=Quantity(min=0), metavar="S", help="Give up after S seconds.")
 @click.option(
     "--nodes", type=click.IntRange(min=1), metavar="N", help="Give up after N expanded pairs of program and state."
 )
@@ -108,16 +109,32 @@ def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
     if output is None:
         yield lambda line: print(line, flush=True)
         return
-    path = Path(output)
-    partial = path.with_name(path.name + ".part")
+    if not output:
+        raise click.BadParameter("a file has a name", param_hint="--output")
     try:
-        with partial.open("w", encoding="utf-8") as stream:
+        with _completed(Path(os.path.realpath(output))) as stream:
             yield lambda line: print(line, file=stream)
-        partial.replace(path)
     except OSError as error:
         raise click.FileError(output, error.strerror or str(error)) from None
-    finally:
-        partial.unlink(missing_ok=True)
+
+
+@contextmanager
+def _completed(path: Path) -> Iterator[TextIO]:
+    """A stream to a file that takes its place at the end; a pipe or a device is written to and never replaced."""
+    if path.exists() and not path.is_file():
+        with path.open("w", encoding="utf-8") as stream:
+            yield stream
+        return
+    partial = path.with_name(f".golc-{os.getpid()}.part")
+    with partial.open("x", encoding="utf-8") as stream:
+        try:
+            yield stream
+            stream.flush()
+            if path.exists():
+                partial.chmod(path.stat().st_mode & 0o7777)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)
 
 
 class _Text:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, address, console_options, constants_option
+from golc.cli.common import Console, Quantity, address, console_options, constants_option
 
 if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 @click.option("--journal", type=click.Path(), metavar="FILE", help="Write everything that happens to a new file.")
 @click.option(
     "--stop-when-idle",
-    type=click.FloatRange(min=0),
+    type=Quantity(min=0),
     metavar="S",
     help="End with success when the program has waited for S seconds.",
 )
@@ -52,7 +52,7 @@ if TYPE_CHECKING:
 @click.option("--step", is_flag=True, help="Ask before each action.")
 @click.option(
     "--speed",
-    type=click.FloatRange(0.01, 1000),
+    type=Quantity(0.01, 1000),
     default=1.0,
     show_default=True,
     help="How many simulated seconds pass in one; a simulated brick needs the same.",

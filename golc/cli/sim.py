@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from golc.cli.common import Console, address, console_options, constants_option
+from golc.cli.common import Console, Quantity, address, console_options, constants_option
 
 if TYPE_CHECKING:
     from golc.runtime.rcxsim.ports import Port
@@ -32,20 +32,20 @@ TROUBLE = {
 @click.option("--tcp", metavar="HOST:PORT", callback=address, help="Listen here instead; port 0 is any free one.")
 @click.option(
     "--speed",
-    type=click.FloatRange(0.01, 1000),
+    type=Quantity(0.01, 1000),
     default=1.0,
     show_default=True,
     help="How many simulated seconds pass in one; give the host the same.",
 )
 @click.option(
     "--air-time",
-    type=click.FloatRange(0, 10),
+    type=Quantity(0, 10),
     default=1.0,
     show_default=True,
     help="Factor on the air time of 2400 baud; 0: messages take no time.",
 )
-@click.option("--loss", type=click.FloatRange(0, 1), default=0.0, metavar="P", help="Chance that a message is lost.")
-@click.option("--garble", type=click.FloatRange(0, 1), default=0.0, metavar="P", help="Chance that it is damaged.")
+@click.option("--loss", type=Quantity(0, 1), default=0.0, metavar="P", help="Chance that a message is lost.")
+@click.option("--garble", type=Quantity(0, 1), default=0.0, metavar="P", help="Chance that it is damaged.")
 @click.option("--seed", type=int, default=0, show_default=True, help="Of everything that is left to chance.")
 @click.option("--events", type=click.Path(path_type=Path), metavar="FILE", help="What happens, instead of chance.")
 @click.option(
@@ -132,7 +132,7 @@ def _teller(console: Console) -> Any:
         if text is not None and console.verbosity >= 0:
             console.err(f"{record['t']:9.3f} s  " + text.format(**record))
         elif console.verbosity > 0:
-            details = "  ".join(f"{key} {value}" for key, value in record.items() if key not in ("t", "what") and value)
-            console.err(f"{record['t']:9.3f} s  {record['what']:<10} {details}")
+            details = [f"{key} {value}" for key, value in record.items() if key not in ("t", "what") and value != {}]
+            console.err(f"{record['t']:9.3f} s  {record['what']:<10} " + "  ".join(details))
 
     return tell

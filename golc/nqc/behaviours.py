@@ -9,7 +9,7 @@ from golc.diagnostics import Code, Findings, Label, Span
 from golc.nqc.actionmap import ActionMap, Entry
 from golc.nqc.source import Definition, Kind, NqcSource
 from golc.nqc.wire import Wire
-from golc.theory.suggest import closest
+from golc.theory.suggest import did_you_mean
 from golc.theory.theory import ByCall, ByStart, Device
 
 SPOKEN = {Kind.TASK: "a task", Kind.SUB: "a sub", Kind.FUNCTION: "a function"}
@@ -162,18 +162,17 @@ def check_reports(actions: ActionMap, counters: Mapping[str, Entry], nqc: NqcSou
             told.add(entry.action)
             findings.warning(
                 Code.UNREPORTED,
-                f"nothing in the NQC files reports `{entry.action}`",
+                f"nothing in the NQC files reports `{entry.action}`" + (f" as `{name}`" if entry.count > 1 else ""),
                 entry.span,
                 help=f"write `golc_report({name});` where it happens",
             )
     for word in sorted(nqc.words):
         if word.startswith("EXOG_") and word not in counters:
-            similar = closest(word, counters)
             findings.error(
                 Code.NQC_NAME,
                 f"`{word}` is no exogenous action of the device",
                 _place_of(word, nqc) or actions.device.span,
-                help=f"did you mean `{similar}`?" if similar else f"there are {', '.join(counters) or 'none'}",
+                help=did_you_mean(word, counters) or f"there are {', '.join(counters) or 'none'}",
             )
 
 

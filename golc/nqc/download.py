@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import os
+import select
 import subprocess
+import time
 from collections.abc import Callable
 from pathlib import Path
 
 from golc.diagnostics import DeviceError
 from golc.nqc.toolchain import Target, find_nqc
 
-SECONDS = 300
+SECONDS = 300.0
 """Six thousand bytes take about a hundred seconds in the air."""
 
 ADVICE = {
@@ -34,11 +37,7 @@ def download(image: Path, target: Target, port: str, slot: int | None, heard: Ca
         raise DeviceError(f"nqc cannot be run: {error.strerror or error}") from error
     with process:
         said = _listen(process, heard)
-        try:
-            code = process.wait(SECONDS)
-        except subprocess.TimeoutExpired:
-            process.kill()
-            raise DeviceError(f"nqc has not ended within {SECONDS} s") from None
+        code = process.wait()
     if code != 0:
         message, help_ = ADVICE.get(
             code, ("nqc could not send the program: {said}", "try once more, closer to the brick")
@@ -47,13 +46,17 @@ def download(image: Path, target: Target, port: str, slot: int | None, heard: Ca
 
 
 def _listen(process: subprocess.Popen[bytes], heard: Callable[[str], None]) -> str:
+    """What nqc says until it ends: a dot for each block, without a line end. One that hangs is ended."""
     assert process.stderr is not None
-    said = ""
-    while chunk := process.stderr.read(1):  # it writes a dot for each block, without a line end
+    descriptor, deadline, said = process.stderr.fileno(), time.monotonic() + SECONDS, ""
+    while select.select([descriptor], [], [], max(0.0, deadline - time.monotonic()))[0]:
+        if not (chunk := os.read(descriptor, 4096)):
+            return said
         text = chunk.decode("latin-1")
         said += text
         heard(text)
-    return said
+    process.kill()
+    raise DeviceError(f"nqc has not ended within {SECONDS:g} s", help="try once more, closer to the brick")
 
 
 def nqc_port(port: str) -> str:

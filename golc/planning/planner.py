@@ -9,7 +9,7 @@ from golc.diagnostics import LimitError
 from golc.planning import cheapest, depth_first, shortest
 from golc.planning.all_plans import enumerate_plans
 from golc.planning.dead_end import DeadEnd
-from golc.planning.limits import Budget, Limits
+from golc.planning.limits import Budget, GivenUpSearchError, Limits
 from golc.program.blame import Blocked
 from golc.program.build import Builder
 from golc.program.labels import Act
@@ -27,33 +27,53 @@ from golc.theory.types import Value
 
 @dataclass(frozen=True)
 class Executable:
-    """A procedure of a theory, ready to be executed: online by ``machine``, in look-ahead by ``machine.ahead``."""
+    """A procedure of a theory, ready to be executed: online by ``machine``, in look-ahead by ``machine.ahead``.
+
+    ``look_ahead`` does what its ``search`` blocks want.
+    """
 
     dynamics: Dynamics
     machine: Machine
     node: Node
+    look_ahead: LookAhead
 
 
 def executable(theory: BasicActionTheory, procedure: str, args: tuple[Value, ...] = ()) -> Executable:
     """Compile a procedure; its arguments must be of the parameters' types."""
     dynamics = Dynamics(theory)
     program = Program()
+    look_ahead = LookAhead()
     ahead = Machine(dynamics, program, look_ahead)
     with deep_recursion():
         node = Builder(dynamics, program).start(procedure, args)
-    return Executable(dynamics, Machine(dynamics, program, look_ahead, ahead), node)
+    return Executable(dynamics, Machine(dynamics, program, look_ahead, ahead), node, look_ahead)
 
 
-def look_ahead(machine: Machine, node: Node, state: State, request: Request) -> Path | NoPath:
-    """What a ``search`` block does: the way to its end that is requested."""
-    budget = Budget(Limits(steps=request.steps, seconds=request.seconds))
-    try:
-        path = _find(request.strategy, machine, node, state, budget)
-    except LimitError as error:
-        return NoPath(str(error))
-    if path is None:
+class LookAhead:
+    """What a ``search`` block does: find the way to its end that is requested."""
+
+    def __init__(self) -> None:
+        self._given_up = False
+
+    def __call__(self, machine: Machine, node: Node, state: State, request: Request) -> Path | NoPath:
+        """The way, or that there is none; raises ``GivenUpSearchError`` after ``give_up``."""
+        limits = Limits(steps=request.steps, seconds=request.seconds)
+        budget = Budget(limits, given_up=lambda: self._given_up)
+        try:
+            path = _find(request.strategy, machine, node, state, budget)
+        except GivenUpSearchError:
+            raise
+        except LimitError as error:
+            return NoPath(str(error))
+        finally:
+            self._given_up = False
+        if path is not None:
+            return replace(path, request=request)
         return NoPath(f"no way of more than {_steps(request.steps)} was considered" if budget.cut else None)
-    return replace(path, request=request)
+
+    def give_up(self) -> None:
+        """Have the search that is under way, otherwise the next one, end without a result; for other threads."""
+        self._given_up = True
 
 
 def _find(

@@ -14,6 +14,7 @@ from typing import Any, NamedTuple
 
 from golc.situation import guards
 from golc.situation.layout import Layout, Place
+from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
     Binder,
     DefinedTerm,
@@ -254,7 +255,8 @@ class Compiler:
     def _membership(self, element: str, type_: Type, within: Type) -> str:
         if isinstance(within, Interval) and type_.kinds == {"int"}:
             return f"({within.low} <= {element} <= {within.high})"
-        return f"({element} in {self.bind('set', frozenset(within.values))})"
+        listed = not isinstance(strip_optional(within), Interval)  # an interval may be too long to list
+        return f"({element} in {self.bind('set', frozenset(within.values) if listed else within)})"
 
     def _operation(self, term: Operation, cells: Cells, depth: int) -> str:
         op, args = term.op, term.args
@@ -335,15 +337,9 @@ def variables(count: int) -> Cells:
 
 def fits(inner: Type, outer: Type) -> bool:
     """Whether the types alone prove that every value of the one belongs to the other."""
-    if inner == outer:
-        return True
-    if isinstance(inner, Interval) and isinstance(outer, Interval):
-        return outer.low <= inner.low and inner.high <= outer.high
-    if not inner.finite:
-        return inner.kinds <= outer.kinds and not outer.finite
-    if not outer.finite:
-        return inner.kinds <= outer.kinds
-    return len(inner.values) <= len(outer.values) and all(value in outer for value in inner.values)
+    if inner.finite:
+        return includes(outer, inner)
+    return not outer.finite and inner.kinds <= outer.kinds
 
 
 def _known(term: Term, cells: Cells) -> tuple[bool, Value]:

@@ -45,12 +45,13 @@ def missing_block(failure: Failure) -> Diagnostic | None:
     if failure.accepts != {"_INDENT"} or failure.previous is None:
         return None
     word = str(failure.line_before[0]) if failure.line_before else ""
+    empty = {"device": "; without any, leave the colon out", "action": "", "exog": ""}
     return failure.finding(
         Code.MISSING,
         f"the block of this `{word}` is missing",
         failure.gap(),
         "indent the lines that belong to it by four spaces"
-        + ("; a block that does nothing is `skip`" if word.lower() not in ("action", "exog") else ""),
+        + empty.get(word.lower(), "; a block that does nothing is `skip`"),
     )
 
 

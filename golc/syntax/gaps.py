@@ -131,7 +131,11 @@ def missing_token(failure: Failure) -> Diagnostic | None:
             f"the line should end before `{failure.bad}`",
             help="one declaration, clause or statement a line",
         )
-    help = "an interval is written `1..6`" if only == "RANGE" else f"write {title(only)}"
+    help = f"write {title(only)}"
+    if only == "RANGE":
+        help = "an interval is written `1..6`"
+    elif failure.previous == "-":
+        help = "write a number, or parentheses around what has no number: `(-n)`"
     return failure.finding(Code.MISSING, f"{title(only)} is missing after `{failure.previous}`", failure.gap(), help)
 
 

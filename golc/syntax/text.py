@@ -16,6 +16,8 @@ def read_source(path: str | Path) -> Source:
     Raises ``UserError`` if it is missing, no file, too large, binary, not UTF-8 (with the place of the byte) or empty.
     """
     name = str(path)
+    if not name:
+        raise _unreadable(name, "a file has a name")
     try:
         with Path(path).open("rb") as file:
             data = file.read(LARGEST + 1)

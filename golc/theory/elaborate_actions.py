@@ -12,7 +12,7 @@ from golc.theory.elaborate_values import closed_term, parameter_scope
 from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN, size
 from golc.theory.scope import Entry, Kind, Scope
-from golc.theory.suggest import closest
+from golc.theory.suggest import did_you_mean
 from golc.theory.terms import Literal, Term
 from golc.theory.theory import Action, Definition, Effect, Fluent
 from golc.theory.types import BOOL, INT
@@ -170,8 +170,7 @@ def _sources(context: Context, node: tree.Exog) -> tuple[str, ...]:
     known = [*dict.fromkeys((*SOURCES, *context.device_names))]
     for source in node.sources:
         if source.text not in known:
-            similar = closest(source.text, known)
-            help_ = f"did you mean `{similar}`?" if similar else f"known are {', '.join(known)}"
+            help_ = did_you_mean(source.text, known) or f"known are {', '.join(known)}"
             message = f"unknown source `{source.text}`"
             context.error(Code.UNKNOWN_NAME, message, source.span, "neither a kind of device nor a device", help_)
     return tuple([source.text for source in node.sources])

@@ -17,7 +17,7 @@ from golc.theory.elaborate_types import LARGEST, elaborate_type
 from golc.theory.elaborate_values import parameter_scope
 from golc.theory.fitting import BROKEN, describe, includes, size
 from golc.theory.scope import Entry, Kind
-from golc.theory.suggest import closest
+from golc.theory.suggest import did_you_mean
 from golc.theory.terms import Literal, Term
 from golc.theory.theory import Binding, ByCall, ByPrompt, ByStart, Device, Fixed, Parameter, Setting
 from golc.theory.types import INT, Type, Value
@@ -67,8 +67,7 @@ def devices(context: Context, nodes: list[tree.Device], sensed: Mapping[str, tup
 def _device(context: Context, node: tree.Device, sensed: Mapping[str, tuple[Term, ...]]) -> Device | None:
     abilities = KINDS.get(node.kind.text)
     if abilities is None:
-        similar = closest(node.kind.text, SOURCES)
-        help_ = f"did you mean `{similar}`?" if similar else f"known are {', '.join(SOURCES)}"
+        help_ = did_you_mean(node.kind.text, SOURCES) or f"known are {', '.join(SOURCES)}"
         context.error(Code.DEVICE, f"unknown kind of device `{node.kind.text}`", node.kind.span, "not known", help_)
         return None
     if node.file is not None and abilities.file is None:

@@ -71,10 +71,8 @@ def evaluated(context: Context, found: Term) -> Literal | None:
     if isinstance(found, Literal):
         return found
     closed = context.closed()
-    around, closed.depth = (
-        closed.depth,
-        0,
-    )  # evaluating may resolve a declaration, which evaluates a constant of its own
+    # Evaluating may resolve a declaration, which evaluates a constant of its own.
+    around, closed.depth = closed.depth, 0
     try:
         return Literal(closed.evaluate(found), type=found.type, span=found.span)
     except NoValueError as error:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from golc.diagnostics import Code, Span
 from golc.theory.context import Context
 from golc.theory.fitting import BROKEN, describe, overlap, strip_optional
-from golc.theory.terms import Literal, Operation, Operator, Term
+from golc.theory.terms import Literal, Operation, Operator, Quantified, Term
 from golc.theory.types import BOOL, NONE, Type, show
 
 
@@ -49,6 +49,8 @@ def mismatch(context: Context, found: Term, needed: str, what: str, help: str | 
 def _cure(found: Term, needed: Type) -> str | None:
     if isinstance(found, Literal) and found.value is None:
         return f"the type `{needed}?` has the value `none`, too"
+    if needed == BOOL and isinstance(found, Quantified):
+        return f"write `({found.kind} …) = …`: without parentheses `{found.kind}` takes in everything to its right"
     if needed == BOOL:
         return f"compare it: `{shown(found)} = …`"
     return None

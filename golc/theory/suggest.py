@@ -20,6 +20,12 @@ def closest(word: str, candidates: Iterable[str]) -> str | None:
     return best
 
 
+def did_you_mean(word: str, candidates: Iterable[str]) -> str | None:
+    """The question whether somebody meant the closest candidate, for the help of a finding."""
+    best = closest(word, candidates)
+    return None if best is None else f"did you mean `{best}`?"
+
+
 def allowance(word: str) -> int:
     """How many slips a word of this length may have: none for a single letter, at most four."""
     return min(4, (len(word) + 2) // 4)

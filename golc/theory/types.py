@@ -188,6 +188,10 @@ NONE = Optional(Enumeration(()))
 """The type of ``none`` alone."""
 
 
+MOST_BITS = 14_000
+"""Larger integers are not shown in full: Python refuses to write more than 4,300 decimal digits."""
+
+
 def show(value: Value) -> str:
     """A value as golc writes it: ``true``, ``none``, ``3``, ``stopped``."""
     match value:
@@ -195,6 +199,8 @@ def show(value: Value) -> str:
             return "none"
         case bool():
             return "true" if value else "false"
+        case int() if value.bit_length() > MOST_BITS:
+            return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
         case _:
             return str(value)
 

@@ -19,8 +19,9 @@ REPEAT_AFTER = 3.0
 """The host sends again after 3.5 s without an answer; the same action anew comes sooner, or after a poll."""
 MORE_TIME_AFTER = 2.5
 """Seconds after the host's last part at which a behaviour that still runs asks for more time."""
-PATIENCE = 11.0
-"""Seconds without a word in the middle of a number after which it is given up: three repetitions were lost."""
+PATIENCE = 13.0
+"""Seconds without a word in the middle of a number after which it is given up: the host had time to repeat itself three
+times, the last time some 11 s after what was heard last. Who gives up before that takes the next digit for a number."""
 NEVER = float("inf")
 PANIC_EVERY = 1.0
 """Seconds from one cry of panic to the next."""

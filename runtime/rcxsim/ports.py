@@ -19,7 +19,7 @@ class Port(Protocol):
     """``pty PATH`` or ``tcp HOST:PORT``: what a person or a program needs to reach it."""
 
     def watched(self) -> list[int]:
-        """The file descriptors that become readable when there is something to do."""
+        """The file descriptors that become readable when there is something to do, in the order to read them."""
 
     def read(self, descriptor: int) -> bytes:
         """The bytes that have come, perhaps none."""
@@ -99,7 +99,8 @@ class TcpPort:
         self.description = f"tcp {shown}:{self._listener.getsockname()[1]}"
 
     def watched(self) -> list[int]:
-        return [self._listener.fileno()] + ([] if self._client is None else [self._client.fileno()])
+        # The client first: one that has hung up must not keep out one that calls at the same time.
+        return ([] if self._client is None else [self._client.fileno()]) + [self._listener.fileno()]
 
     def read(self, descriptor: int) -> bytes:
         if descriptor == self._listener.fileno():

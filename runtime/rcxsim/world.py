@@ -9,6 +9,7 @@ from math import prod
 from typing import Any
 
 from golc.diagnostics import ProgramError
+from golc.nqc.numbering import implied
 from golc.runtime.rcxsim.trace import Trace
 from golc.situation.dynamics import Args, Dynamics
 from golc.situation.layout import State
@@ -116,6 +117,7 @@ class World:
 
 def _comes_from_elsewhere(theory: BasicActionTheory, action: Action) -> bool:
     """Whether an exogenous action reaches the host, but not through a brick, and can be listed."""
-    bound = {binding.action for device in theory.devices if device.kind == "rcx" for binding in device.bindings}
+    bricks = [device for device in theory.devices if device.kind == "rcx"]
+    bound = {binding.action for brick in bricks for binding in brick.bindings or implied(theory, brick)}
     listed = prod(len(p.type.values) if p.type.finite else MOST_INFERRED + 1 for p in action.parameters)
     return action.exogenous and action.name not in bound and listed <= MOST_INFERRED

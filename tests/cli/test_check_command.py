@@ -151,3 +151,57 @@ def test_help_has_an_example() -> None:
     done = golc("check", "--help")
     assert done.returncode == 0
     assert "golc check examples/delivery/delivery.gl" in done.stdout
+
+
+@pytest.fixture
+def full(tmp_path: Path) -> Path:
+    """A device that takes nothing, and no file of the machine's that a fault could replace."""
+    if not Path("/dev/full").is_char_device():
+        pytest.skip("the system has no device that is always full")
+    link = tmp_path / "full"
+    link.symlink_to("/dev/full")
+    return link
+
+
+@pytest.mark.parametrize("arguments", [("check",), ("--help",), ("--version",), ("check", "--help")])
+def test_output_that_nobody_can_store_is_said(arguments: tuple[str, ...], spare: str, full: Path) -> None:
+    rest = (spare,) if arguments == ("check",) else ()
+    with full.open("w") as stdout:
+        done = subprocess.run(
+            [sys.executable, "-m", "golc", *arguments, *rest],
+            stdout=stdout,
+            stderr=subprocess.PIPE,
+            text=True,
+            timeout=60,
+            check=False,
+        )
+    assert (done.returncode, done.stderr) == (4, "error: cannot write the output: No space left on device\n")
+
+
+def test_errors_that_nobody_can_store_leave_the_exit_code(spare: str, full: Path) -> None:
+    with full.open("w") as stderr:
+        command = [sys.executable, "-m", "golc", "check"]
+        assert subprocess.run(command, stderr=stderr, timeout=60, check=False).returncode == 2
+        done = subprocess.run(
+            [*command, "--strict", spare], stdout=subprocess.DEVNULL, stderr=stderr, timeout=60, check=False
+        )
+        assert done.returncode == 1
+
+
+def test_closed_streams_are_no_fault(spare: str) -> None:
+    command = f'"{sys.executable}" -m golc check --strict "{spare}" <&- >&- 2>&-'
+    assert subprocess.run(command, shell=True, timeout=60, check=False).returncode == 1
+
+
+def test_a_reader_that_has_gone_ends_it(spare: str) -> None:
+    reader, writer = os.pipe()
+    os.close(reader)
+    with os.fdopen(writer, "w") as stdout:
+        command = [sys.executable, "-m", "golc", "check", spare]
+        done = subprocess.run(command, stdout=stdout, stderr=subprocess.PIPE, text=True, timeout=60, check=False)
+    assert (done.returncode, done.stderr) == (141, "")
+
+
+def test_a_name_of_nothing_is_no_directory() -> None:
+    done = golc("check", "", "-q")
+    assert (done.returncode, done.stdout.splitlines()[0]) == (1, "error[GL001]: cannot read ``: a file has a name")

@@ -1,9 +1,12 @@
 from __future__ import annotations
 
 import json
+import os
 import subprocess
 import sys
 from pathlib import Path
+
+import pytest
 
 ROOT = Path(__file__).parents[2]
 ELEVATOR = str(ROOT / "examples" / "elevator" / "elevator.gl")
@@ -183,3 +186,42 @@ def test_strategies_exclude_each_other() -> None:
     done = golc("plan", ELEVATOR, "--shortest", "--cheapest")
     assert done.returncode == 2
     assert "--shortest and --cheapest exclude each other" in done.stderr
+
+
+def test_a_pipe_is_written_to_and_stays(tmp_path: Path) -> None:
+    pipe = tmp_path / "pipe"
+    os.mkfifo(pipe)
+    with subprocess.Popen([sys.executable, "-m", "golc", "plan", LIFT, "go(6)", "-o", str(pipe)]) as writer:
+        assert pipe.read_text() == "up(6)\n"
+        assert writer.wait(60) == 0
+    assert pipe.is_fifo()
+
+
+def test_a_link_stays_and_its_file_keeps_its_mode(tmp_path: Path) -> None:
+    target, link = tmp_path / "target", tmp_path / "link"
+    target.write_text("an older plan\n")
+    target.chmod(0o640)
+    link.symlink_to(target)
+    assert golc("plan", LIFT, "go(6)", "-o", str(link)).returncode == 0
+    assert link.is_symlink()
+    assert (target.read_text(), target.stat().st_mode & 0o777) == ("up(6)\n", 0o640)
+
+
+def test_files_beside_the_plan_stay(tmp_path: Path) -> None:
+    beside = tmp_path / "plan.part"
+    beside.write_text("somebody else's\n")
+    assert golc("plan", LIFT, "go(6)", "-o", str(tmp_path / "plan")).returncode == 0
+    assert beside.read_text() == "somebody else's\n"
+    assert {path.name for path in tmp_path.iterdir()} == {"plan", "plan.part"}
+
+
+def test_a_long_name_is_a_name(tmp_path: Path) -> None:
+    assert golc("plan", LIFT, "go(6)", "-o", str(tmp_path / ("x" * 253))).returncode == 0
+    done = golc("plan", LIFT, "go(6)", "-o", str(tmp_path / ("x" * 256)))
+    assert (done.returncode, "File name too long" in done.stderr, "Traceback" in done.stderr) == (1, True, False)
+
+
+@pytest.mark.parametrize("options", [("--time", "nan"), ("--time", "inf"), ("--all", "1" + 30 * "0"), ("-o", "")])
+def test_numbers_and_names_that_are_none_are_wrong_usage(options: tuple[str, str]) -> None:
+    done = golc("plan", LIFT, "go(6)", *options)
+    assert (done.returncode, "Traceback" in done.stderr) == (2, False)

@@ -12,7 +12,10 @@ from pathlib import Path
 import pytest
 
 from golc.cli import invoke
+from golc.diagnostics import DeviceError
+from golc.nqc.download import download
 from golc.nqc.image import read_image
+from golc.nqc.toolchain import Target
 
 ROBOT = """\
 domain robot
@@ -263,3 +266,13 @@ def test_a_brick_that_does_not_answer_ends_with_4(
     monkeypatch.setenv("PATH", f"{tools}:/bin:/usr/bin")
     assert invoke(["gen-nqc", "robot.gl", "--download", "--port", "/dev/null", "-q"]) == 4
     assert "no brick answers" in capsys.readouterr().err
+
+
+def test_an_nqc_that_hangs_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A download may take minutes; here it may take no time."""
+    (tmp_path / "nqc").write_text("#!/bin/sh\nexec sleep 600\n")
+    (tmp_path / "nqc").chmod(0o755)
+    monkeypatch.setenv("PATH", f"{tmp_path}:/bin:/usr/bin")
+    monkeypatch.setattr("golc.nqc.download.SECONDS", 0.0)
+    with pytest.raises(DeviceError, match="nqc has not ended within 0 s"):
+        download(tmp_path / "robot.rcx", Target.RCX2, "/dev/null", None, lambda text: None)

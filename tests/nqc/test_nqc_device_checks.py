@@ -49,12 +49,24 @@ def test_two_bricks_without_bindings_are_found(workshop: Workshop) -> None:
         (" from rcx", "device rcx\n", []),
         (" from rcx", "device self:\n    a\n", ["GL086"]),
         (" from host", "device self:\n    a\n", ["GL086"]),
+        (" from host", 'device host "a.py":\n    a\n', ["GL086"]),
+        (" from left", "device rcx left:\n    0 a\n", ["GL086"]),
+        (" from left", "device rcx left:\n    0 a\n    1 e\n", []),
+        (" from alice", "device operator alice:\n    a\n", []),
     ],
 )
 def test_an_exogenous_action_is_reported_by_someone(
     workshop: Workshop, source: str, device: str, expected: list[str]
 ) -> None:
     assert codes(workshop, f"domain d\naction a\nexog e{source}\n{device}") == expected
+
+
+def test_a_brick_reports_only_what_may_come_from_it(workshop: Workshop) -> None:
+    text = "domain d\naction a\nexog e from operator\ndevice rcx:\n    0 a\n    1 e\n"
+    _, found = examine(workshop.write("robot.gl", text))
+    assert [(diagnostic.message, diagnostic.span.line) for diagnostic in found] == [
+        ("`e` may come only from operator, not from `rcx`", 6)
+    ]
 
 
 def test_a_started_task_needs_an_end(workshop: Workshop) -> None:

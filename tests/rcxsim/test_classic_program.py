@@ -260,7 +260,7 @@ def test_abort_forgets_half_a_number(bench: Bench) -> None:
 def test_panic_when_a_number_is_not_acknowledged(bench: Bench) -> None:
     bench.say(LOOK)
     assert bench.wait(10) == [73]
-    assert bench.wait(4.5) == [PANIC, PANIC, PANIC]
+    assert bench.wait(6.5) == [PANIC, PANIC, PANIC]
     assert [bench.say(POLL), bench.say(GO), bench.say(CONTINUE)] == [[], [], []]
     assert bench.wait(1) == [PANIC]
     assert bench.hooks.begun == [1]

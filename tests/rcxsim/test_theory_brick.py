@@ -83,6 +83,20 @@ def test_what_only_the_host_was_told_is_inferred(wire: MakeWire, tmp_path: Path)
     assert "problem" not in hopper.told("done")[0]
 
 
+def test_what_the_brick_itself_reports_is_not_inferred(wire: MakeWire, tmp_path: Path) -> None:
+    file = tmp_path / "hopper.gl"
+    file.write_text(
+        "domain hopper\n\nfluent filled: bool = false\n\n"
+        "action feed:\n    poss filled\n    causes filled := false\n\n"
+        "exog fill:\n    causes filled := true\n\n"
+        'device rcx "hopper.nqc"\n'
+    )
+    hopper = wire(theory=load(file))
+    hopper.act(32)
+    assert hopper.told("inferred") == []
+    assert hopper.told("done")[0]["problem"] == "it is not possible here"
+
+
 def test_sensing_a_fluent_that_actions_change(wire: MakeWire) -> None:
     lift = wire()
     assert lift.act(37) == [73, 65]
@@ -301,3 +315,41 @@ def test_two_bricks_on_one_tower(wire: MakeWire, tmp_path: Path) -> None:
     assert both.say(97, 3.0) == [128]
     assert both.say(147) == [148]
     assert [record["action"] for record in both.told("done")] == ["light", "dark"]
+
+
+TABLE = """\
+domain table
+
+type colour = {red, yellow, blue}
+fluent seen: colour = red
+fluent worn: colour = blue
+
+action look:
+    senses seen
+action dye:
+    causes worn := red
+action inspect:
+    senses worn
+
+device rcx "table.nqc":
+    0 look by call look {3: yellow, 4: blue}
+    1 dye by call dye
+    2 inspect by call inspect {3: yellow, 4: blue}
+"""
+
+
+def test_world_settles_on_a_value_that_has_a_number(wire: MakeWire, tmp_path: Path) -> None:
+    file = tmp_path / "table.gl"
+    file.write_text(TABLE)
+    theory = load(file)
+    assert {tuple(wire(theory=theory, seed=seed).act(32)) for seed in range(20)} == {(67,), (68,)}
+
+
+def test_value_without_a_number_is_answered_with_0_and_told(wire: MakeWire, tmp_path: Path) -> None:
+    file = tmp_path / "table.gl"
+    file.write_text(TABLE)
+    table = wire(theory=load(file))
+    assert table.act(34) == [68]
+    table.act(33)
+    assert table.act(34) == [64]
+    assert "no number" in table.told("senseless")[0]["problem"]

@@ -3,6 +3,7 @@ from __future__ import annotations
 import json
 import subprocess
 import sys
+import threading
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -24,6 +25,9 @@ from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import show_call
+
+PATIENCE = 60.0
+"""Seconds after which a process of a test is ended; nothing takes nearly as long."""
 
 ROOT = Path(__file__).parent.parent.parent
 DELIVERY = ROOT / "examples/delivery/delivery.gl"
@@ -204,6 +208,8 @@ class Robot:
     def __init__(self, mood: str) -> None:
         script = Path(__file__).with_name("legolog_robot.py")
         self.process = subprocess.Popen([sys.executable, str(script), mood], stdout=subprocess.PIPE, text=True)
+        self._patience = threading.Timer(PATIENCE, self.process.kill)
+        self._patience.start()
         assert self.process.stdout is not None
         self._out: IO[str] = self.process.stdout
         self.port = self._out.readline().strip()
@@ -223,6 +229,7 @@ class Robot:
         return self.heard
 
     def close(self) -> None:
+        self._patience.cancel()
         self.process.kill()
         self.process.wait()
         self._out.close()

@@ -21,6 +21,8 @@ from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Report
 from golc.runtime.schedule import parse_schedule
 from golc.theory.theory import BasicActionTheory
 
+Domains = Callable[[str], BasicActionTheory]
+
 
 def silent(result: object) -> None:
     """Nobody wants the answer."""
@@ -106,6 +108,11 @@ def test_a_source_that_is_not_named_is_refused(start: Callable[..., object]) -> 
     theory = run.executive.dynamics.theory  # type: ignore[attr-defined]
 
     assert complaint(theory, "done") == "`done` is reported by rcx, not by an operator"
+
+
+def test_an_operator_with_a_name_reports_what_may_come_from_that_name(unchecked: Domains) -> None:
+    theory = unchecked("domain d\nexog helped from alice\naction ask\ndevice operator alice:\n    ask\n")
+    assert read(theory, "helped") == Report("helped", (), "stdin")
 
 
 @given(st.lists(st.binary(max_size=8).filter(lambda line: b"\n" not in line), max_size=5), st.integers(1, 7))

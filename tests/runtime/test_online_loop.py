@@ -341,6 +341,16 @@ def test_an_event_whose_effect_leaves_its_type_is_dropped_whatever_the_policy(
     assert run.value("x") == 3
 
 
+def test_an_action_whose_effect_leaves_its_type_is_never_begun(start: Start) -> None:
+    run = start(program("climb\nclimb").replace("action a\n", "action a\naction climb:\n    causes x := x + 2\n"))
+
+    with pytest.raises(ProgramError, match="x would become 4, which is outside its type digit"):
+        run.run()
+
+    assert run.value("x") == 2
+    assert run.device.told == ["open", "climb", "abort", "close"]
+
+
 def test_a_failed_action_has_no_effects_and_ends_the_run(start: Start, failing: Failing) -> None:
     run = start(program("set_x(1)"), perform=failing(1))
 

@@ -11,6 +11,7 @@ import socket
 import subprocess
 import sys
 import termios
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -33,6 +34,8 @@ class Golc:
         command = [sys.executable, "-m", "golc", "run", *map(str, arguments)]
         pipes = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.PIPE)
         self.process = subprocess.Popen(command, text=True, **{**pipes, **options})
+        self._patience = threading.Timer(PATIENCE, self.process.kill)
+        self._patience.start()
 
     def type(self, line: str) -> None:
         assert self.process.stdin is not None
@@ -54,6 +57,11 @@ class Golc:
         out, err = self.process.communicate(timeout=PATIENCE)
         return int(self.process.returncode), str(out), str(err)
 
+    def close(self) -> None:
+        self._patience.cancel()
+        self.process.kill()
+        self.process.communicate()
+
 
 @pytest.fixture
 def golc() -> Iterator[Callable[..., Golc]]:
@@ -65,8 +73,7 @@ def golc() -> Iterator[Callable[..., Golc]]:
 
     yield make
     for each in made:
-        each.process.kill()
-        each.process.communicate()
+        each.close()
 
 
 Robots = Callable[[str], Any]
@@ -254,8 +261,8 @@ def test_the_operator_helps_a_robot_that_has_left_the_line(robot: Robots, golc: 
     printed = run.until("? Please put me back on the line, near station 3, then press Enter")
     run.type("request_delivery(2, 5)")
     run.type("there you are")
-    run.type("!state")
     run.until("? press Enter, with nothing before it, when it is done")
+    run.type("!state")
     run.until("motion = suspended")
     run.type("")
     printed += run.until("← arrive_at_station")

@@ -126,9 +126,10 @@ class Brick:
     def abort(self, confirm: bool = True) -> None:
         """Tell the brick to stop all behaviours, until it answers a request again.
 
-        With ``confirm=False`` the message is sent once and nothing is waited for. Raises SilentBrickError if the brick
-        confirms nothing, PanicError if it goes on panicking, PortGoneError. May be called after any exception,
-        KeyboardInterrupt included, has ended another call.
+        The message is sent several times, for a brick that has lost it answers all the same. With ``confirm=False``
+        it is sent once and nothing is waited for. Raises SilentBrickError if the brick confirms nothing, PanicError if
+        it goes on panicking, PortGoneError. May be called after any exception, KeyboardInterrupt included, has ended
+        another call.
         """
         self.statistics.aborts += 1
         self._exchange.forget()
@@ -138,6 +139,9 @@ class Brick:
             self._exchange.send(self._numbers.abort)
             if not confirm:
                 return
+            for _ in range(self._timing.abort_sends - 1):
+                self._exchange.let_pass(self._timing.abort_pause)
+                self._exchange.send(self._numbers.abort)
             # The brick keeps only the last message, so it gets the time to read this one.
             self._exchange.let_pass(self._timing.poll)
             try:
