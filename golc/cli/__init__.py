@@ -92,6 +92,8 @@ def _code(error: BaseException) -> int:
             return 141
         case SystemExit(code=1) if "_GOLC_COMPLETE" not in os.environ:  # so click ends where nobody reads
             return 141
+        case OSError(__context__=KeyboardInterrupt()):  # of a terminal that was closed, which click could not tell so
+            return 130
         case OSError(errno=number, filename=None) if number in UNWRITABLE:
             return _code(DeviceError(f"cannot write the output: {error.strerror}"))
         case Exception():

@@ -164,8 +164,8 @@ def test_a_closed_terminal_aborts_the_brick(robot: Robots, golc: Golcs, tmp_path
     brick.wait_for(START)
 
     os.close(ours)
-    run.process.wait(PATIENCE)
 
+    assert run.process.wait(PATIENCE) == 130
     heard = brick.everything()
     assert ABORT in heard[heard.index(START) :]
     assert journal_of(tmp_path / "j")[-1]["reason"] == "interrupted"
