@@ -70,6 +70,8 @@ def _statements(body: st.Statement) -> Iterator[tuple[st.Statement, str]]:
                 stack.append((inner, f"for {names}" + (f" where {one_line(where.span)}" if where else "")))
             case st.Guard(condition=term, body=inner):
                 stack.append((inner, f"guard {one_line(term.span)}"))
+            case st.Within(body=inner, otherwise=otherwise):
+                stack.extend(((inner, condition), (otherwise, "time is up")))
             case st.Star(body=inner) | st.TogetherStar(body=inner) | st.Let(body=inner) | st.Search(body=inner):
                 stack.append((inner, condition))
             case st.Interrupts(handlers=handlers):

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from golc.program import concurrency, iteration, lookahead, rules
+from golc.program import concurrency, iteration, lookahead, rules, timing
 from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.rules import Rule
@@ -16,6 +16,9 @@ from golc.theory import statements as st
 from golc.theory.terms import Binder, Term, Variable, subterms
 from golc.theory.theory import Parameter, Procedure
 from golc.theory.types import Value, show
+
+LONGEST = 10**9
+"""Seconds; more than 30 years are as good as for ever, and what the clock can count in."""
 
 
 class Builder:
@@ -107,6 +110,11 @@ class Builder:
                 return rules.WaitRule(span)
             case st.WaitUntil(condition=condition):
                 return rules.WaitUntil(span, self._term(condition, depth), condition)
+            case st.WaitTime(seconds=seconds):
+                return timing.WaitTime(span, self._seconds(seconds, depth))
+            case st.Within(seconds=seconds, body=body, otherwise=otherwise):
+                time = self._seconds(seconds, depth)
+                return timing.Within(span, time, self._rule(body, depth), self._rule(otherwise, depth))
             case st.Say(message=message):
                 return rules.SayRule(span, self._message(message, depth))
             case st.Abort(message=message):
@@ -149,9 +157,15 @@ class Builder:
     def _seconds(self, duration: st.Duration, depth: int) -> Callable[..., float]:
         """A function of a state and an environment that gives a time in seconds."""
         if isinstance(duration, Fraction):
-            constant = float(duration)
+            constant = float(min(duration, LONGEST))
             return lambda state, env: constant
-        return self._term(duration, depth)
+        term: Callable[..., int] = self._term(duration, depth)
+
+        def seconds(state: Any, env: Any) -> float:
+            value: int = term(state, env)
+            return float(max(0, min(value, LONGEST)))
+
+        return seconds
 
     def _handler(self, handler: st.Interrupt, depth: int) -> concurrency.On:
         environments = self._environments(handler.binders, handler.condition, depth)

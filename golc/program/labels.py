@@ -45,6 +45,14 @@ class Wait:
 
 
 @dataclass(frozen=True, slots=True)
+class Clock:
+    """The clock of ``wait e s`` or ``within e s`` starts; in look-ahead a silent step."""
+
+    seconds: float
+    span: Span = field(compare=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
 class Abort:
     """End the run as failed."""
 
@@ -52,7 +60,7 @@ class Abort:
     span: Span = field(compare=False, repr=False)
 
 
-Label: TypeAlias = Silent | Act | Say | Wait | Abort
+Label: TypeAlias = Silent | Act | Say | Wait | Clock | Abort
 
 
 class Transition(NamedTuple):

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Protocol
 
 from golc.program.blame import Blamed, Blocked, explain
-from golc.program.frames import resume
-from golc.program.labels import Act, Label, Transition, Wait
+from golc.program.frames import Frame, resume
+from golc.program.labels import Act, Clock, Label, Transition, Wait
 from golc.program.lookahead import ANY, Request
 from golc.program.nodes import Node
 from golc.program.program import Program
@@ -62,6 +62,10 @@ class Machine:
         self.lookahead = ahead is None
         self.ahead: Machine = ahead or self
         self._planner = planner
+        self.now: Callable[[], float] = lambda: 0.0
+        """The clock: seconds since the start of the run. Whoever executes the program sets it."""
+        self.alarm: float | None = None
+        """When the program is to be asked again though nothing has happened, by the last ``decide``."""
         self._paths: dict[tuple[Node, State, Request], Path | NoPath] = {}
         self._blamed: list[Blamed] | None = None
 
@@ -76,21 +80,25 @@ class Machine:
 
     def decide(self, node: Node, state: State, barred: Collection[Act] = ()) -> Transition | None:
         """The transition that the online loop takes: a test step if there is one, otherwise the first action step that
-        is not barred, otherwise a wait; none if the program is final or blocked."""
+        is not barred, otherwise the start of a clock, otherwise a wait; none if the program is final or blocked."""
+        self.alarm = None
         if node.rule.steps_when_final and self.final(node, state):
             return None
-        action = wait = None
+        action = wait = start = None
         for found in Walk(self, state, node):
             label = found[0]
             if isinstance(label, Act):
                 if action is None and label not in barred:
                     action = found
+            elif isinstance(label, Clock):
+                start = start or found
             elif isinstance(label, Wait):
                 wait = wait or found
+                start = start or _starting(found[2])
             else:
                 action = found
                 break
-        taken = action or wait
+        taken = action or start or wait
         return None if taken is None else Transition(taken[0], resume(self.program, taken[1], taken[2]))
 
     def successor(self, state: State, label: Label) -> State:
@@ -108,6 +116,14 @@ class Machine:
             return [explain(self.dynamics, state, blamed) for blamed in self._blamed]
         finally:
             self._blamed = None
+
+    def ring_at(self, moment: float) -> None:
+        """A rule wants to be asked again at a moment."""
+        self.alarm = moment if self.alarm is None else min(self.alarm, moment)
+
+    def is_past(self, moment: float) -> bool:
+        """Whether a moment has come."""
+        return self.now() >= moment
 
     def blame(self, rule: Rule, reason: str, *details: object) -> None:
         """A rule reports why it has no transition; kept only while somebody wants to know."""
@@ -137,7 +153,10 @@ class Machine:
         return self._step(current, index)
 
     def _step(self, path: Path, index: int) -> tuple[Label, Node]:
-        return path.labels[index], self.program.node(self.program.following, (path, index + 1))
+        label, rest = path.labels[index], self.program.node(self.program.following, (path, index + 1))
+        if isinstance(label, Clock):
+            return label, self.program.sequence(self.program.pause(label, self.now()), rest)
+        return label, rest
 
     def _replayed(self, path: Path, index: int, state: State) -> Path | None:
         """The rest of a path by the same choices from another state, if they still lead to the end."""
@@ -163,3 +182,11 @@ class Machine:
                 self._paths.pop(next(iter(self._paths)))
             self._paths[key] = self._planner(self.ahead, node, state, request)
         return self._paths[key]
+
+
+def _starting(frame: Frame | None) -> tuple[Label, Node, Frame | None] | None:
+    """Instead of a wait that is the first transition of a ``within``: its clock starts, and nothing else happens."""
+    timed = None if frame is None else frame.starting
+    if timed is None or timed.start is None:
+        return None
+    return timed.start[0], timed.start[1], timed

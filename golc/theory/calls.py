@@ -24,6 +24,8 @@ def parts(statement: Statement) -> tuple[Statement, ...]:
             return inside
         case typed.If(then=then, otherwise=otherwise):
             return (then, otherwise)
+        case typed.Within(body=body, otherwise=otherwise):
+            return (body, otherwise)
         case typed.Choose(branches=inside) | typed.Together(branches=inside) | typed.Prefer(branches=inside):
             return inside
         case (

@@ -7,7 +7,7 @@ from fractions import Fraction
 from golc.diagnostics import Code, Label
 from golc.syntax import tree
 from golc.theory import statements as typed
-from golc.theory.context import Context, Signature, first_line
+from golc.theory.context import Context, Signature
 from golc.theory.elaborate_names import doing
 from golc.theory.elaborate_terms import arguments, bind, fitting, formula, term
 from golc.theory.elaborate_types import parameters
@@ -42,7 +42,7 @@ def block(context: Context, scope: Scope, node: tree.Block) -> typed.Statement:
 
 
 def statement(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
-    """The program of a statement; what is not supported is a finding and stands as its blocks alone."""
+    """The program of a statement."""
     span = node.span
     match node:
         case tree.Call(target=target):
@@ -90,7 +90,7 @@ def spoken(context: Context, scope: Scope, node: tree.Message) -> typed.Message:
 
 
 def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
-    """What does a block several times, under a condition, or with look-ahead; the rest is about time."""
+    """What does a block several times, under a condition, with look-ahead, or in some time."""
     span = node.span
     match node:
         case tree.Star(limit=limit, body=body):
@@ -110,25 +110,18 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
             steps = None if at_most is None else fitting(context, scope, at_most, INT, "`at most … steps`")
             seconds = None if within is None else _seconds(context, scope, within)
             return typed.Search(strategy, steps, seconds, block(context, scope, body), span=span)
-        case _:
-            return _timed(context, scope, node)
+        case tree.Within(duration=duration, body=body):
+            otherwise = typed.Skip(span=span) if node.otherwise is None else block(context, scope, node.otherwise)
+            return typed.Within(_seconds(context, scope, duration), block(context, scope, body), otherwise, span=span)
+        case tree.WaitTime(duration=duration):
+            return typed.WaitTime(_seconds(context, scope, duration), span=span)
+    raise AssertionError(node)
 
 
 def _seconds(context: Context, scope: Scope, node: tree.Expr) -> typed.Duration:
     if isinstance(node, tree.Real):
         return Fraction(node.value)
     return fitting(context, scope, node, INT, "a time in seconds")
-
-
-def _timed(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
-    """The statements about time, which are not supported."""
-    if isinstance(node, tree.Within):
-        context.unsupported("`within` is", first_line(node.span))
-        if node.otherwise is not None:
-            block(context, scope, node.otherwise)
-        return block(context, scope, node.body)
-    context.unsupported("`wait` for a time is", node.span)
-    return typed.Skip(span=node.span)
 
 
 def _blocks(context: Context, scope: Scope, nodes: tuple[tree.Block, ...]) -> tuple[typed.Statement, ...]:

@@ -179,6 +179,20 @@ class WaitUntil(Base):
 
 
 @dataclass(frozen=True)
+class WaitTime(Base):
+    seconds: Duration
+
+
+@dataclass(frozen=True)
+class Within(Base):
+    """A missing ``else`` is ``Skip``."""
+
+    seconds: Duration
+    body: Statement
+    otherwise: Statement
+
+
+@dataclass(frozen=True)
 class Say(Base):
     message: Message
 
@@ -209,6 +223,8 @@ Statement: TypeAlias = (
     | Search
     | Wait
     | WaitUntil
+    | WaitTime
+    | Within
     | Say
     | Abort
 )

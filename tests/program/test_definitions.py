@@ -1,5 +1,6 @@
 """Random programs: the machine's *Trans* and *Final* are those of the definitions, written out naively here.
 
+The clock stands still: a wait for a time does not end, and no time is up.
 The naive evaluator works on the typed statements by recursion, builds no normal forms, and computes everything at once.
 """
 
@@ -44,6 +45,8 @@ class Definitions:
             case ("guard", condition, env, inside):
                 steps = self.trans(inside, s, entered) if self.i.holds(condition, s, env) else []
                 return [(label, ("guard", condition, env, left), after) for label, left, after in steps]
+            case ("pause",):
+                return [("wait", p, s)]
             case ("rounds", _, _, 0):
                 return []
             case ("rounds", body, env, left):
@@ -66,6 +69,8 @@ class Definitions:
                 return not self.i.holds(condition, s, env) or self.final(inside, s, entered)
             case ("rounds", *_):
                 return True
+            case ("pause",):
+                return False
             case ("interrupts", _, _, bodies):
                 return all(b is None or self.final(b, s) for b in bodies) and not self.trans(p, s)
             case ("at", statement, env):
@@ -110,6 +115,8 @@ class Definitions:
                 return [("test", NIL, s)] if self.i.holds(d.condition, s, env) else []
             case typed.Wait():
                 return [] if self.ahead else [("wait", NIL, s)]
+            case typed.WaitTime():
+                return [("clock", NIL if self.ahead else ("pause",), s)]
             case typed.WaitUntil():
                 holds = self.i.holds(d.condition, s, env)
                 if self.ahead:
@@ -166,6 +173,8 @@ class Definitions:
                     turn = d.body if d.where is None else typed.If(d.where, d.body, typed.Skip())
                     config = ("seq", ("at", turn, inner), config)
                 return config
+            case typed.Within():
+                return ("at", d.body, env)
             case typed.Guard():
                 return ("guard", d.condition, env, ("at", d.body, env))
             case typed.Together():
@@ -180,7 +189,7 @@ class Definitions:
         match d:
             case typed.Skip() | typed.Star() | typed.TogetherStar():
                 return True
-            case typed.Perform() | typed.Test() | typed.Wait():
+            case typed.Perform() | typed.Test() | typed.Wait() | typed.WaitTime():
                 return False
             case typed.WaitUntil():
                 return not self.ahead and self.i.holds(d.condition, s, env)
@@ -202,7 +211,7 @@ class Definitions:
 
 
 CONDITIONS = ["x = 0", "x < 2", "not p", "on(1)", "exists n: digit. on(n)", "x % 2 = 1", "true", "false"]
-LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "never", "skip", "wait", "q(1)", "q(x)"]
+LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "never", "skip", "wait", "wait 5 s", "q(1)", "q(x)"]
 PROCEDURES = """
 proc q(n: int):
     choose:
@@ -240,6 +249,7 @@ def lines(depth: int) -> st.SearchStrategy[list[str]]:
             st.tuples(st.sampled_from(["0", "2", "x - 1"]), inner).map(lambda t: [f"star at most {t[0]}:", *t[1]]),
             inner.map(lambda block: ["together star:", *block]),
             st.tuples(condition, inner).map(lambda t: [f"guard {t[0]}:", *t[1]]),
+            inner.map(lambda block: ["within x + 1 s:", *block, "else:", "    a"]),
             inner.map(lambda block: ["for n: digit where on(n):", *block]),
             inner.map(lambda block: ["for k in 1..2, p2: bool:", "    if p2 = p:", "        act(k)", *block]),
             inner.map(lambda block: ["pick n: digit where on(n):", *block]),

@@ -140,3 +140,10 @@ def test_a_long_row_of_procedures_is_no_recursion(theory: Build) -> None:
     lines = [f"proc p{n}:\n    p{n + 1}\n" for n in range(3000)]
     built = theory(HEAD + "".join(lines) + "proc p3000:\n    stop\n")
     assert not built.procedures["p0"].recursive
+
+
+def test_times_are_terms_or_have_decimals(program: Build) -> None:
+    five = Literal(5, type=INT)
+    assert program("wait 5 s") == typed.WaitTime(five)
+    assert program("within 0.5 s:\n    stop") == typed.Within(Fraction(1, 2), STOP, typed.Skip())
+    assert program("within 5 s:\n    stop\nelse:\n    go(1)") == typed.Within(five, STOP, go(1))
