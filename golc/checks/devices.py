@@ -55,6 +55,7 @@ def check_devices(theory: BasicActionTheory, findings: Findings) -> None:
     bricks = [number_device(theory, device, findings) for device in theory.devices if device.kind == RCX]
     _check_implicit(theory, findings)
     _check_done(theory, bricks, findings)
+    _check_answers(theory, findings)
     _check_reported(theory, bricks, findings)
     _check_ranges([actions for actions in bricks if actions.device in sound], findings)
     for actions in bricks:
@@ -152,6 +153,15 @@ def _instances(slots: Iterable[Parameter | Fixed]) -> int | None:
                 return None
             count *= size(slot.type)
     return count
+
+
+def _check_answers(theory: BasicActionTheory, findings: Findings) -> None:
+    """Nothing is sensed by a device that only keeps books."""
+    for device in theory.devices:
+        for binding in (device.bindings or implied(theory, device)) if device.kind == "self" else ():
+            if theory.actions[binding.action].senses:
+                message = f"`{binding.action}` senses, but the device `self` cannot answer"
+                findings.error(Code.NO_DEVICE, message, binding.span, help="bind it to another device")
 
 
 def _check_reported(theory: BasicActionTheory, bricks: Iterable[ActionMap], findings: Findings) -> None:

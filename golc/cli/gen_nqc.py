@@ -138,7 +138,8 @@ def _say_written(console: Console, generated: Generated) -> None:
     if console.verbosity < 0:
         return
     entries = generated.actions.entries
-    rows = [(_numbers(entry), _signature(entry), _behaviour(entry)) for entry in entries]
+    hooks = generated.program.own_hooks
+    rows = [(_numbers(entry), _signature(entry), _behaviour(entry, hooks)) for entry in entries]
     widths = [max((len(row[column]) for row in rows), default=0) for column in (0, 1)]
     console.out(f"{_brick(generated)}\n")
     for number, signature, behaviour in rows:
@@ -186,12 +187,14 @@ def _signature(entry: Entry) -> str:
     return f"{entry.action}({', '.join(slots)})" if slots else entry.action
 
 
-def _behaviour(entry: Entry) -> str:
+def _behaviour(entry: Entry, hooks: bool) -> str:
     from golc.nqc.behaviours import behaviour_name
     from golc.theory.theory import ByStart
 
     if entry.behaviour is None:
         return "reported by the brick"
+    if hooks:
+        return "by your startBehaviour"
     return f"{'starts' if isinstance(entry.behaviour, ByStart) else 'calls'} {behaviour_name(entry)}"
 
 

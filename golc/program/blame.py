@@ -66,7 +66,7 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
         case "no value":
             return Blocked(span, "no value can be picked")
         case "waits":
-            return Blocked(span, "look-ahead cannot wait for an event that is not expected")
+            return Blocked(span, "look-ahead cannot wait: nothing happens while it thinks")
         case "aborts":
             return Blocked(span, "the program would end itself as failed here")
         case "lost":

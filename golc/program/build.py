@@ -157,7 +157,7 @@ class Builder:
     def _seconds(self, duration: st.Duration, depth: int) -> Callable[..., float]:
         """A function of a state and an environment that gives a time in seconds."""
         if isinstance(duration, Fraction):
-            constant = float(min(duration, LONGEST))
+            constant = float(min(duration, Fraction(LONGEST)))
             return lambda state, env: constant
         term: Callable[..., int] = self._term(duration, depth)
 

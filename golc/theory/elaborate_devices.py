@@ -73,6 +73,9 @@ def _device(context: Context, node: tree.Device, sensed: Mapping[str, tuple[Term
     if node.file is not None and abilities.file is None:
         message = f"a device `{node.kind.text}` has no file"
         context.error(Code.DEVICE, message, node.kind.span, "leave the file out")
+    if node.file is None and node.kind.text == "host":
+        message = "a device `host` needs the file with its functions"
+        context.error(Code.DEVICE, message, node.kind.span, "which file?", 'write `device host "helpers.py":`')
     bindings: list[Binding] = []
     settings: dict[str, Setting] = {}
     for item in node.items:
@@ -163,9 +166,6 @@ def _fits_kind(context: Context, device: tree.Device, abilities: Abilities, node
     elif behaviour is not None and not isinstance(behaviour, abilities.behaviours):
         message = f"a device `{kind}` carries out actions {abilities.said}"
         context.error(Code.DEVICE, message, behaviour.span, f"not by a device `{kind}`")
-    elif behaviour is not None and kind == "host" and device.file is None:
-        message = "a device `host` needs the file with its functions"
-        context.error(Code.DEVICE, message, device.kind.span, "which file?", 'write `device host "helpers.py":`')
 
 
 def _fits_number(context: Context, node: tree.Binding, args: tuple[Parameter | Fixed, ...]) -> None:

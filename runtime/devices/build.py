@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from golc.diagnostics import Code, DeviceError, Diagnostic, Findings, UserError
+from golc.diagnostics import DeviceError, Findings, UserError
 from golc.nqc.numbering import ActionMap, implied, number_device
 from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Device
@@ -14,7 +14,7 @@ from golc.runtime.devices.host import Host
 from golc.runtime.devices.itself import Itself
 from golc.runtime.devices.operator import Operator, Speak
 from golc.theory import theory as th
-from golc.theory.theory import BasicActionTheory, Binding
+from golc.theory.theory import BasicActionTheory
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Surroundings:
 def build_devices(theory: BasicActionTheory, surroundings: Surroundings) -> list[Device]:
     """All devices of a theory, in the order of declaration, none of them open.
 
-    Raises ``UserError`` if the numbers of a brick make no sense, or if `self` is to sense something.
+    Raises ``UserError`` if the numbers of a brick make no sense.
     """
     maps = brick_maps(theory)
     return [_build(theory, device, maps, surroundings) for device in theory.devices]
@@ -59,12 +59,4 @@ def _build(
         case "host":
             return Host(device.name, Path(device.folder) / (device.file or ""), bindings, theory)
         case _:
-            _check_senseless(theory, device, bindings)
             return Itself(device.name, bindings)
-
-
-def _check_senseless(theory: BasicActionTheory, device: th.Device, bindings: tuple[Binding, ...]) -> None:
-    for binding in bindings:
-        if theory.actions[binding.action].senses:
-            message = f"`{binding.action}` senses, but the device `self` cannot answer"
-            raise UserError(Diagnostic(Code.NO_DEVICE, message, binding.span, help="bind it to another device"))

@@ -63,7 +63,7 @@ class Host(Device):
         binding = self._bindings.find(action, args)
         assert binding is not None
         name = function_name(binding)
-        result = guarded(lambda: self._functions[name](*args), name, self._path)
+        result = guarded(lambda: self._functions[name](*args), f"`{name}`", self._path)
         types = [term.type for term in self._theory.actions[action].senses]
         if not types:
             return ()
@@ -101,19 +101,19 @@ def load_module(path: Path) -> ModuleType:
     if folder not in sys.path:
         sys.path.insert(0, folder)
     loader = spec.loader
-    guarded(lambda: loader.exec_module(module), "the file", path)
+    guarded(lambda: loader.exec_module(module), f"loading {path.name}", path)
     return module
 
 
-def guarded(call: Callable[[], object], name: str, path: Path) -> object:
+def guarded(call: Callable[[], object], what: str, path: Path) -> object:
     """The result of foreign code; whatever it raises, but an interrupt of the run, is a device failure."""
     try:
         return call()
     except KeyboardInterrupt:
         raise
     except BaseException as error:
-        what = traceback.format_exception_only(error)[-1].strip()
-        raise DeviceError(f"`{name}` failed at {_place(error, path)}: {what}") from error
+        why = traceback.format_exception_only(error)[-1].strip()
+        raise DeviceError(f"{what} failed at {_place(error, path)}: {why}") from error
 
 
 def _place(error: BaseException, path: Path) -> str:

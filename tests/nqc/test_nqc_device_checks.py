@@ -61,6 +61,12 @@ def test_an_exogenous_action_is_reported_by_someone(
     assert codes(workshop, f"domain d\naction a\nexog e{source}\n{device}") == expected
 
 
+@pytest.mark.parametrize("bindings", [":\n    look\n", "\n"])
+def test_bookkeeping_senses_nothing(workshop: Workshop, bindings: str) -> None:
+    found = workshop.found(f"domain d\nfluent x: bool = false\naction look:\n    senses x\ndevice self{bindings}")
+    assert [diagnostic.message for diagnostic in found] == ["`look` senses, but the device `self` cannot answer"]
+
+
 def test_a_brick_reports_only_what_may_come_from_it(workshop: Workshop) -> None:
     text = "domain d\naction a\nexog e from operator\ndevice rcx:\n    0 a\n    1 e\n"
     _, found = examine(workshop.write("robot.gl", text))

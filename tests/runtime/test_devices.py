@@ -265,7 +265,7 @@ def test_an_interrupt_of_the_run_passes_through_a_function(devices: Devices) -> 
     ("python", "message"),
     [
         (None, "cannot read the Python file"),
-        ("def see(:", "`the file` failed at"),
+        ("def see(:", "loading helpers.py failed at"),
         ("import nothing_of_this_name", "No module named 'nothing_of_this_name'"),
         (HELPERS.replace("def see", "def sees"), "has no function `see`"),
         (HELPERS.replace("def see", "measure = 3\ndef see").replace("def measure", "def m"), "`measure` in"),
@@ -333,13 +333,6 @@ def test_an_action_that_no_device_does_is_an_error(desk: Desk, unchecked: Callab
     assert router.device("greet", ("left",)) is itself
     with pytest.raises(UserError, match=r"no device performs `greet\(right\)`"):
         router.device("greet", ("right",))
-
-
-def test_nothing_can_be_sensed_by_nobody(desk: Desk, unchecked: Callable[[str], BasicActionTheory]) -> None:
-    theory = unchecked(DOMAIN + "device self\n")
-
-    with pytest.raises(UserError, match="`look` senses, but the device `self` cannot answer"):
-        build_devices(theory, Surroundings(desk, lambda message, args: "", None))
 
 
 def test_a_brick_needs_a_port(delivery: BasicActionTheory, desk: Desk) -> None:
