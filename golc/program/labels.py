@@ -39,9 +39,10 @@ class Say:
 
 @dataclass(frozen=True, slots=True)
 class Wait:
-    """Let an exogenous action happen."""
+    """Let an exogenous action happen; if ``timed``, none ends it, but the clock."""
 
     span: Span = field(compare=False, repr=False)
+    timed: bool = field(default=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -84,7 +84,7 @@ class Machine:
         self.alarm = None
         if node.rule.steps_when_final and self.final(node, state):
             return None
-        action = wait = start = None
+        action = start = wait = timed = None
         for found in Walk(self, state, node):
             label = found[0]
             if isinstance(label, Act):
@@ -93,12 +93,15 @@ class Machine:
             elif isinstance(label, Clock):
                 start = start or found
             elif isinstance(label, Wait):
-                wait = wait or found
+                if label.timed:
+                    timed = timed or found
+                else:
+                    wait = wait or found
                 start = start or _starting(found[2])
             else:
                 action = found
                 break
-        taken = action or start or wait
+        taken = action or start or wait or timed
         return None if taken is None else Transition(taken[0], resume(self.program, taken[1], taken[2]))
 
     def successor(self, state: State, label: Label) -> State:

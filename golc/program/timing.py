@@ -42,7 +42,7 @@ class Pause(Rule):
         if walk.machine.lookahead or walk.machine.is_past(moment):
             return None
         walk.machine.ring_at(moment)
-        return Wait(span), node
+        return Wait(span, timed=True), node
 
     def final(self, proof: Proof, node: Node) -> bool:
         return proof.machine.lookahead or proof.machine.is_past(node.operands[0])

@@ -128,6 +128,11 @@ def test_two_clocks_ring_in_their_order(go: Go) -> None:
     assert go("together:\n    wait 5 s\n    a\nand:\n    wait 2 s\n    b") == ["2 b", "5 a", "5 end"]
 
 
+def test_a_wait_beside_a_clock_ends_with_an_event(go: Go) -> None:
+    body = "together:\n    wait 5 s\n    a\nand:\n    wait\n    b"
+    assert go(body, {2: "rain"}) == ["2 b", "5 a", "5 end"]
+
+
 def test_a_plan_with_a_wait_takes_its_time(go: Go) -> None:
     assert go("search:\n    a\n    wait 5 s\n    b") == ["0 a", "5 b", "5 end"]
 
