@@ -267,10 +267,11 @@ class LimitError(GolcError):
 class DeviceError(GolcError):
     """The world is wrong: a device, a link or a tool does not do what it should.
 
-    ``help`` says what a person can do about it.
+    ``help`` says what a person can do about it; ``lasting``: trying again is of no use.
     """
 
     exit_code = 4
+    lasting = False
 
     def __init__(self, message: str, help: str | None = None) -> None:
         super().__init__(message)

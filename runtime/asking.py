@@ -9,7 +9,6 @@ from golc.diagnostics import DeviceError
 from golc.program.labels import Act
 from golc.runtime.desk import Desk, WrongAnswerError
 from golc.runtime.devices.base import GivenUpError
-from golc.runtime.devices.rcx.errors import PortGoneError
 from golc.runtime.happenings import Remedy
 
 REMEDIES = {
@@ -27,10 +26,10 @@ ALL = "all"
 
 
 def always(remedy: Remedy) -> Callable[[Act, DeviceError], Remedy]:
-    """The same answer to every failure; but when the port itself has gone there is nothing left to try."""
+    """The same answer to every failure; but when trying again is of no use the run stops."""
 
     def decide(label: Act, error: DeviceError) -> Remedy:
-        return Remedy.STOP if isinstance(error, PortGoneError) else remedy
+        return Remedy.STOP if error.lasting else remedy
 
     return decide
 
@@ -46,7 +45,7 @@ class AskAboutFailure:
         self._show = show
 
     def __call__(self, label: Act, error: DeviceError) -> Remedy:
-        if isinstance(error, PortGoneError) or not self._desk.is_open:
+        if error.lasting or not self._desk.is_open:
             return Remedy.STOP
         question = f"{label} has failed: retry, next (take another way) or stop? Also: state, history"
         try:

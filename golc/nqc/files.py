@@ -82,14 +82,20 @@ def remove(path: Path) -> bool:
     """Remove a file that golc wrote and nobody edited; whether there was one."""
     if not path.exists() or not is_untouched(path):
         return False
-    path.unlink()
+    try:
+        path.unlink()
+    except OSError as error:
+        raise _cannot(path, error) from error
     return True
 
 
 def _put(path: Path, text: str) -> None:
+    """Write a file that appears only when it is complete: half of one would look as if somebody had edited it."""
+    partial = path.with_name(path.name + ".part")
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text, encoding="utf-8")
+        partial.write_text(text, encoding="utf-8")
+        partial.replace(path)
     except OSError as error:
         raise _cannot(path, error) from error
 

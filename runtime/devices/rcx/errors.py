@@ -32,6 +32,8 @@ class PortFailedError(LinkError):
 class PortGoneError(LinkError):
     """The port was open and went away: unplugged, or the far end of a pty or a socket has closed."""
 
+    lasting = True
+
 
 class SilentBrickError(LinkError):
     """The brick does not answer."""
