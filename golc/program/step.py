@@ -151,7 +151,8 @@ class Machine:
         if isinstance(current, Path) and index == len(current.labels):
             current, index = self._path(current.programs[-1], state, current.rest(index)), 0
         if isinstance(current, NoPath):
-            self.blame(rule, "lost", path, done, current)
+            if not self.ahead.final(path.programs[done], state):
+                self.blame(rule, "lost", path, done, current)
             return None
         return self._step(current, index)
 

@@ -391,3 +391,15 @@ def test_a_request_is_answered_once(start: Start) -> None:
         )
     )
     assert program.labels() == ["a", "b"]
+
+
+def test_a_search_that_has_come_to_its_end_is_not_blamed(start: Start) -> None:
+    after = start("""
+        search:
+            a
+            test x = 0
+        never
+    """).take()
+    blocked = after.take()
+    reasons = blocked.machine.why_blocked(blocked.node, blocked.state)
+    assert [reason.text for reason in reasons] == ["`never` is not possible: `false` is false"]
