@@ -38,7 +38,7 @@ from golc.runtime.happenings import (
 )
 from golc.situation.dynamics import Dynamics
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import Value
+from golc.theory.types import Value, writable
 
 FORMAT = 1
 """The version of the records."""
@@ -68,7 +68,8 @@ class Journal:
 
     def write(self, record: Mapping[str, object]) -> None:
         """Append a record. A line that the disk does not take as a whole is taken back."""
-        line = json.dumps(record, ensure_ascii=False, separators=(",", ":"), default=str).encode() + b"\n"
+        text = json.dumps(writable(record), ensure_ascii=False, separators=(",", ":"), default=str)
+        line = text.encode() + b"\n"
         try:
             if os.write(self._file, line) == len(line):
                 self._size += len(line)

@@ -7,12 +7,12 @@ import os
 import selectors
 import socket
 import threading
-from collections.abc import Mapping
 
 from golc.diagnostics import DeviceError
 from golc.runtime.exogenous import Lines, Splitter, from_operator, one_line
 from golc.runtime.inbox import Command, Inbox, Item, Refusal, end_thread, reporting_thread
 from golc.theory.theory import Action, BasicActionTheory
+from golc.theory.types import writable
 
 
 class Listener:
@@ -109,7 +109,7 @@ class _Client:
 
     def answer(self, result: object) -> None:
         """Answer a command; nothing but ``ok`` if there is nothing to tell."""
-        self.send("ok" if result is None else f"ok {json.dumps(_plain(result), ensure_ascii=False)}")
+        self.send("ok" if result is None else f"ok {json.dumps(writable(result), ensure_ascii=False)}")
 
     def send(self, text: str) -> None:
         """Send a line; a client that does not listen or has gone is left alone."""
@@ -118,10 +118,6 @@ class _Client:
                 self.connection.sendall(text.encode() + b"\n")
             except OSError:
                 return
-
-
-def _plain(result: object) -> object:
-    return dict(result) if isinstance(result, Mapping) else result
 
 
 def _bind(host: str, port: int) -> socket.socket:

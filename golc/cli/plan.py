@@ -170,8 +170,10 @@ class _Json:
         self.cost: int | None = None
 
     def add(self, plan: Plan) -> None:
+        from golc.theory.types import writable
+
         self.cost = plan.cost
-        self._plans.append([{"action": action.action, "args": list(action.args)} for action in plan.actions])
+        self._plans.append([{"action": action.action, "args": writable(action.args)} for action in plan.actions])
 
     def close(self, outcome: Outcome) -> None:
         """Write the object."""

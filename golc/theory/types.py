@@ -6,7 +6,7 @@ a ``Fraction``, a set a ``frozenset``, a list a ``tuple``.) Types are compared b
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TypeAlias, overload
@@ -203,6 +203,19 @@ def show(value: Value) -> str:
             return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
         case _:
             return str(value)
+
+
+def writable(thing: object) -> object:
+    """A structure of values for JSON, in which integers that Python refuses to write are the texts of ``show``."""
+    match thing:
+        case Mapping():
+            return {name: writable(part) for name, part in thing.items()}
+        case list() | tuple():
+            return [writable(part) for part in thing]
+        case int() if thing.bit_length() > MOST_BITS:
+            return show(thing)
+        case _:
+            return thing
 
 
 def show_call(name: str, args: Sequence[Value]) -> str:

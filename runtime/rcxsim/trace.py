@@ -6,6 +6,8 @@ import json
 from collections.abc import Callable, Mapping
 from typing import Any, TextIO
 
+from golc.theory.types import writable
+
 Record = Mapping[str, Any]
 """``t`` (seconds since the start), ``what`` (``heard``, ``sent``, ``lost``, ``began``, …), and what belongs to it."""
 
@@ -28,7 +30,7 @@ def to_file(stream: TextIO) -> Callable[[Record], None]:
     """A reader that writes JSON lines, each flushed: the file is whole up to the last line however the process ends."""
 
     def write(record: Record) -> None:
-        stream.write(json.dumps(record) + "\n")
+        stream.write(json.dumps(writable(record)) + "\n")
         stream.flush()
 
     return write

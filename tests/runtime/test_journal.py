@@ -157,3 +157,12 @@ def test_a_wrong_line_in_the_middle_is_told(tmp_path: Path, line: bytes) -> None
 
     with pytest.raises(DeviceError, match=r"line 2 of .* is no record of a journal"):
         list(read_journal(path))
+
+
+def test_a_number_too_large_to_write_is_journalled_as_a_text(tmp_path: Path, start: Start) -> None:
+    journal = Journal(tmp_path / "j", start(TRIAL).executive.dynamics, "control", ())
+
+    journal.write({"event": "exogenous", "args": [1 << 20_000]})
+    journal.close()
+
+    assert list(read_journal(tmp_path / "j")) == [{"event": "exogenous", "args": ["0x1000000000… (20001 bits)"]}]

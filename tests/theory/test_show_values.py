@@ -1,6 +1,8 @@
 from __future__ import annotations
 
-from golc.theory.types import show, show_call
+import json
+
+from golc.theory.types import show, show_call, writable
 
 
 def test_values_are_shown_as_golc_writes_them() -> None:
@@ -11,3 +13,10 @@ def test_values_are_shown_as_golc_writes_them() -> None:
 
 def test_a_number_too_large_to_write_is_cut() -> None:
     assert show(1 << 20_000) == "0x1000000000… (20001 bits)"
+
+
+def test_a_number_too_large_to_write_is_a_text_in_json() -> None:
+    record = {"args": (1, None, True, "red", 1 << 20_000), "state": {"n": 1 << 20_000}}
+    large = "0x1000000000… (20001 bits)"
+    assert writable(record) == {"args": [1, None, True, "red", large], "state": {"n": large}}
+    assert json.dumps(writable(record))
