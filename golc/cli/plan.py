@@ -170,19 +170,19 @@ class _Json:
         self.cost: int | None = None
 
     def add(self, plan: Plan) -> None:
-        from golc.theory.types import writable
-
         self.cost = plan.cost
-        self._plans.append([{"action": action.action, "args": writable(action.args)} for action in plan.actions])
+        self._plans.append([{"action": action.action, "args": action.args} for action in plan.actions])
 
     def close(self, outcome: Outcome) -> None:
         """Write the object."""
+        from golc.theory.types import writable
+
         result = "found" if outcome.plans else "gave up" if outcome.gave_up else "impossible"
         document = {
             "outcome": result,
             "gave_up": outcome.gave_up,
-            "plans": self._plans,
-            "cost": self.cost,
+            "plans": writable(self._plans),
+            "cost": writable(self.cost),
             "deepest": [str(action) for action in outcome.stuck],
             "failed": [str(reason) for reason in outcome.reasons],
             "expanded": outcome.expanded,
@@ -205,7 +205,9 @@ def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost:
         console.note(f"{_plans(outcome.plans)}")
     if stats:
         rate = outcome.expanded / outcome.seconds if outcome.seconds else 0
-        found = _plans(outcome.plans) + ("" if cost is None else f" of cost {cost}")
+        from golc.theory.types import show
+
+        found = _plans(outcome.plans) + ("" if cost is None else f" of cost {show(cost)}")
         console.err(
             f"{found}, {outcome.expanded} pairs of program and state expanded in "
             f"{outcome.seconds:.3f} s ({rate:,.0f} a second)"

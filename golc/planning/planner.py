@@ -22,7 +22,7 @@ from golc.situation.layout import State
 from golc.theory.recursion import deep_recursion
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import Value
+from golc.theory.types import Value, show
 
 
 @dataclass(frozen=True)
@@ -89,7 +89,7 @@ def _find(
 
 
 def _steps(count: int | None) -> str:
-    return f"{count} step{'' if count == 1 else 's'}"
+    return f"{show(count)} step{'' if count == 1 else 's'}"
 
 
 @dataclass(frozen=True)

@@ -22,8 +22,8 @@ def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramEr
 
 def negative_cost(span: Span, call: str, value: int) -> ProgramError:
     """An action would cost less than nothing."""
-    message = f"the cost of `{call}` would be {value}, but a cost is at least 0"
-    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{value} here"))
+    message = f"the cost of `{call}` would be {show(value)}, but a cost is at least 0"
+    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
 
 
 def nothing(span: Span, where: str) -> ProgramError:
