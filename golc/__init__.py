@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from golc.planning.planner import Executable, Outcome, Plan, Planning, executable
     from golc.rendering import render
     from golc.situation.dynamics import Dynamics
+    from golc.theory.statements import Strategy
     from golc.theory.theory import BasicActionTheory
 
 __all__ = [
@@ -36,6 +37,7 @@ __all__ = [
     "Plan",
     "Planning",
     "ProgramError",
+    "Strategy",
     "UserError",
     "examine",
     "executable",
@@ -50,6 +52,7 @@ _ROOMS = {
     "golc.planning.planner": ("Executable", "Outcome", "Plan", "Planning", "executable"),
     "golc.rendering": ("render",),
     "golc.situation.dynamics": ("Dynamics",),
+    "golc.theory.statements": ("Strategy",),
     "golc.theory.theory": ("BasicActionTheory",),
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names}

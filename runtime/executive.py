@@ -19,9 +19,9 @@ from golc.planning.limits import GivenUpSearchError
 from golc.planning.planner import Executable
 from golc.program.blame import Blocked as Why
 from golc.program.circles import CIRCLES, runs_in_circles
-from golc.program.labels import Abort, Act, Say, Silent, Wait
+from golc.program.labels import Abort, Act, Clock, Say, Silent, Wait
 from golc.program.nodes import Node
-from golc.runtime.clock import Clock
+from golc.runtime import clock as clocks
 from golc.runtime.devices.base import Args, Device, GivenUpError, Router
 from golc.runtime.ending import release, verdict_on
 from golc.runtime.happenings import (
@@ -48,6 +48,8 @@ from golc.theory.types import show, show_call
 
 A_MOMENT = 0.05
 """Real seconds after which a run that would be idle asks again whether a device still has something to report."""
+LONGEST = 3600.0
+"""Seconds after which a program that waits for the clock is asked again; what is longer need not fit a timer."""
 
 
 @dataclass(frozen=True)
@@ -71,11 +73,12 @@ class Executive(Intake):
         inbox: Inbox,
         sources: Sequence[Source] = (),
         policy: Policy | None = None,
-        clock: Clock | None = None,
+        clock: clocks.Clock | None = None,
     ) -> None:
-        clock = clock or Clock(time.monotonic, time.monotonic())
+        clock = clock or clocks.Clock(time.monotonic, time.monotonic())
         super().__init__(executable.dynamics, inbox, router.devices, policy or Policy(), clock)
         self.machine = executable.machine
+        self.machine.now = self.clock.now
         self._node = executable.node
         self._give_up = executable.look_ahead.give_up
         self._router = router
@@ -143,20 +146,22 @@ class Executive(Intake):
                     continue
                 quiet = 0
             elif isinstance(label, Wait):
+                exogenous, quiet = self.exogenous, 0
                 self._wait(label)
-                quiet = 0
+                if self.exogenous == exogenous:
+                    continue  # the wait goes on: nothing has happened but that time has passed
             else:
                 quiet += 1
                 self._step(label, quiet)
             node = residual
 
-    def _step(self, label: Silent | Say | Abort, quiet: int) -> None:
+    def _step(self, label: Silent | Say | Clock | Abort, quiet: int) -> None:
         """A step without an action."""
         self._failed.clear()
         match label:
             case Say(text=text, span=span) if self.observers:
                 self.tell(Said(self.clock.now(), text, span))
-            case Silent(span=span) if self.observers:
+            case Silent(span=span) | Clock(span=span) if self.observers:
                 self.tell(Stepped(self.clock.now(), span))
             case Abort(text=text, span=span):
                 raise ProgramError(Diagnostic(Code.ABORTED, text or "the program aborts", span))
@@ -272,16 +277,19 @@ class Executive(Intake):
             raise self._why(node)
 
     def _until_event(self) -> bool:
-        """Take in what comes until an exogenous action was applied.
+        """Take in what comes until an exogenous action was applied, or the program is to be asked again by the clock.
 
         False if none can come or none came in time, or if the operator ended the run, which is then the verdict.
         """
         idle = self._policy.stop_when_idle
         deadline = None if idle is None else time.monotonic() + idle
-        items = self._inbox.items
+        items, alarm = self._inbox.items, self.machine.alarm
         while self._verdict is None:
             if items:
                 if self.take_in():
+                    return True
+            elif alarm is not None:
+                if not self._inbox.wait(min(self.clock.until(alarm), LONGEST)):
                     return True
             elif not self._open() and not items:
                 return False

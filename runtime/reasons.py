@@ -65,7 +65,14 @@ def _statements(body: st.Statement) -> Iterator[tuple[st.Statement, str]]:
             case st.Pick(binders=binders, where=where, body=inner):
                 names = ", ".join(binder.variable.name for binder in binders)
                 stack.append((inner, f"pick {names}" + (f" where {one_line(where.span)}" if where else "")))
-            case st.Star(body=inner) | st.Let(body=inner) | st.Search(body=inner):
+            case st.For(binders=binders, where=where, body=inner):
+                names = ", ".join(binder.variable.name for binder in binders)
+                stack.append((inner, f"for {names}" + (f" where {one_line(where.span)}" if where else "")))
+            case st.Guard(condition=term, body=inner):
+                stack.append((inner, f"guard {one_line(term.span)}"))
+            case st.Within(body=inner, otherwise=otherwise):
+                stack.extend(((inner, condition), (otherwise, "time is up")))
+            case st.Star(body=inner) | st.TogetherStar(body=inner) | st.Let(body=inner) | st.Search(body=inner):
                 stack.append((inner, condition))
             case st.Interrupts(handlers=handlers):
                 stack.extend((handler.body, _trigger(handler)) for handler in handlers)

@@ -26,10 +26,10 @@ from golc.syntax.text import read_source
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value
 
-_TIME = r"(?P<time>\d+(?:\.\d+)?|\.\d+)\s*s"
+_TIME = r"(?P<time>\d{1,12}(?:\.\d+)?|\.\d+)\s*s"
 _AT = re.compile(rf"\s*at\s+{_TIME}\s*:(?P<event>.*)")
 _ON = re.compile(
-    r"\s*on\s+(?:(?P<nth>\d+)(?:st|nd|rd|th)\s+)?(?P<action>[^:]*?)(?P<once>\s+once)?\s+after\s+"
+    r"\s*on\s+(?:(?P<nth>\d{1,12})(?:st|nd|rd|th)\s+)?(?P<action>[^:]*?)(?P<once>\s+once)?\s+after\s+"
     + _TIME
     + r"\s*:(?P<event>.*)"
 )

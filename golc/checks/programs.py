@@ -74,7 +74,7 @@ def steps_always(theory: BasicActionTheory, statement: Statement) -> bool:
     entered: set[str] = set()
     while True:
         match statement:
-            case typed.Wait() | typed.Say() | typed.Abort():
+            case typed.Wait() | typed.WaitTime() | typed.Say() | typed.Abort():
                 return True
             case typed.Perform(action=name, args=args):
                 return not theory.actions[name].preconditions and all(isinstance(arg, Literal) for arg in args)

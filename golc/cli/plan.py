@@ -29,6 +29,8 @@ EVERY = 10**12
 @click.argument("procedure", metavar="[PROC]", required=False)
 @click.option("--goal", metavar="NAME|FORMULA", help="Plan without a program: the fewest actions that make this true.")
 @click.option("--first", is_flag=True, help="One plan, the first in program order; this is the default.")
+@click.option("--shortest", is_flag=True, help="One plan with the fewest actions.")
+@click.option("--cheapest", is_flag=True, help="One plan whose actions cost the least in sum.")
 @click.option(
     "--all",
     "most",
@@ -54,6 +56,8 @@ def command(
     procedure: str | None,
     goal: str | None,
     first: bool,
+    shortest: bool,
+    cheapest: bool,
     most: int | None,
     steps: int | None,
     seconds: float | None,
@@ -75,23 +79,23 @@ def command(
     """
     from golc.planning.limits import Limits
 
-    if first and most is not None:
-        raise click.UsageError("--first and --all exclude each other")
-    if goal is not None and (procedure is not None or most is not None):
-        raise click.UsageError("--goal asks for one plan without a program: it excludes PROC and --all")
+    _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
+    if goal is not None and (procedure is not None or cheapest or most is not None):
+        raise click.UsageError("--goal asks for one shortest plan without a program: no PROC, --all or --cheapest")
     limits = Limits(steps, nodes, seconds)
     planning: Planning | GoalPlanning
     if goal is not None:
         program, planning = goal, _for_goal(file, constants, goal, limits)
     else:
-        program, planning = _for_program(file, constants, procedure or "control", limits, most is not None)
+        strategy = "shortest" if shortest else "cheapest" if cheapest else "first"
+        program, planning = _for_program(file, constants, procedure or "control", limits, most is not None, strategy)
     with _writer(output) as write:
         listing = _Json(write) if format_ == "json" else _Text(write, numbered=most is not None)
         for plan in islice(planning, most):
             listing.add(plan)
         listing.close(planning.outcome)
     outcome = planning.outcome
-    _report(console, program, outcome, stats)
+    _report(console, program, outcome, stats, listing.cost)
     if outcome.plans and most is not None and outcome.plans >= most:
         return DONE
     return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
@@ -105,15 +109,24 @@ def _for_goal(file: str, constants: Mapping[str, str], goal: str, limits: Limits
 
 
 def _for_program(
-    file: str, constants: Mapping[str, str], procedure: str, limits: Limits, all_plans: bool
+    file: str, constants: Mapping[str, str], procedure: str, limits: Limits, all_plans: bool, strategy: str
 ) -> tuple[str, Planning]:
     from golc.loading import load
     from golc.planning.planner import Planning, executable
     from golc.runtime.calls import read_procedure
+    from golc.theory.statements import Strategy
 
     theory = load(file, constants)
     call = read_procedure(theory, procedure)
-    return str(call), Planning(executable(theory, call.action, call.args), limits, all_plans)
+    ready = executable(theory, call.action, call.args)
+    return str(call), Planning(ready, limits, all_plans, Strategy(strategy))
+
+
+def _only_one(given: Mapping[str, bool]) -> None:
+    """A usage error if two ways to choose among plans are given."""
+    names = [name for name, is_given in given.items() if is_given]
+    if len(names) > 1:
+        raise click.UsageError(f"{names[0]} and {names[1]} exclude each other")
 
 
 @contextmanager
@@ -157,9 +170,11 @@ class _Text:
         self._write = write
         self._numbered = numbered
         self._count = 0
+        self.cost: int | None = None
 
     def add(self, plan: Plan) -> None:
         self._count += 1
+        self.cost = plan.cost
         if self._numbered:
             self._write(f"# plan {self._count}: {_actions(len(plan.actions))}")
         for action in plan.actions:
@@ -170,24 +185,30 @@ class _Text:
 
 
 class _Json:
-    """One object: ``plans`` (lists of ``{"action": name, "args": [...]}``), ``outcome``, ``gave_up``, ``expanded``."""
+    """One object: ``plans`` (lists of ``{"action": name, "args": [...]}``), ``outcome``, ``gave_up``, ``expanded``.
+
+    ``cost`` is that of the cheapest plan, if it was asked for.
+    """
 
     def __init__(self, write: Callable[[str], None]) -> None:
         self._write = write
         self._plans: list[Any] = []
+        self.cost: int | None = None
 
     def add(self, plan: Plan) -> None:
-        from golc.theory.types import writable
-
-        self._plans.append([{"action": action.action, "args": writable(action.args)} for action in plan.actions])
+        self.cost = plan.cost
+        self._plans.append([{"action": action.action, "args": action.args} for action in plan.actions])
 
     def close(self, outcome: Outcome) -> None:
         """Write the object."""
+        from golc.theory.types import writable
+
         result = "found" if outcome.plans else "gave up" if outcome.gave_up else "impossible"
         document = {
             "outcome": result,
             "gave_up": outcome.gave_up,
-            "plans": self._plans,
+            "plans": writable(self._plans),
+            "cost": writable(self.cost),
             "deepest": [str(action) for action in outcome.stuck],
             "failed": [str(reason) for reason in outcome.reasons],
             "expanded": outcome.expanded,
@@ -195,7 +216,7 @@ class _Json:
         self._write(json.dumps(document, indent=2))
 
 
-def _report(console: Console, program: str, outcome: Outcome, stats: bool) -> None:
+def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: int | None) -> None:
     if not outcome.plans:
         verdict = outcome.gave_up or f"proven: {outcome.proof}"
         console.err(f"no plan for `{program}`: {verdict}")
@@ -210,8 +231,11 @@ def _report(console: Console, program: str, outcome: Outcome, stats: bool) -> No
         console.note(f"{_plans(outcome.plans)}")
     if stats:
         rate = outcome.expanded / outcome.seconds if outcome.seconds else 0
+        from golc.theory.types import show
+
+        found = _plans(outcome.plans) + ("" if cost is None else f" of cost {show(cost)}")
         console.err(
-            f"{_plans(outcome.plans)}, {outcome.expanded} pairs of program and state expanded in "
+            f"{found}, {outcome.expanded} pairs of program and state expanded in "
             f"{outcome.seconds:.3f} s ({rate:,.0f} a second)"
         )
 

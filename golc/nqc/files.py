@@ -59,6 +59,8 @@ def _digest(text: str) -> str:
 def is_untouched(path: Path) -> bool:
     """Whether a file may be written: there is none, or it is as golc has written it."""
     try:
+        if path.exists() and not path.is_file() and not path.is_dir():  # a pipe or a device, which may never end
+            return False
         return is_sealed(path.read_bytes().decode())
     except FileNotFoundError:
         return True

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -25,6 +26,8 @@ def read_nqc(path: Path) -> Source | None:
     Latin-1.
     """
     try:
+        if path.exists() and not path.is_file() and not path.is_dir():  # a pipe or a device, which may never end
+            raise OSError(errno.EINVAL, "it is no file")
         data = path.read_bytes()
     except (FileNotFoundError, NotADirectoryError):
         return None

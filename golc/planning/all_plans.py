@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from golc.planning.depth_first import DeadEnd, find
+from golc.planning.dead_end import DeadEnd
+from golc.planning.depth_first import find
 from golc.planning.limits import Budget
 from golc.program.labels import Act, Transition
 from golc.program.nodes import Node

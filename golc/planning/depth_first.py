@@ -9,27 +9,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from golc.planning.dead_end import DeadEnd
 from golc.planning.limits import Budget
 from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Act, Label, Transition
 from golc.program.nodes import Node
 from golc.program.step import Machine, Path
 from golc.situation.layout import State
-
-
-@dataclass
-class DeadEnd:
-    """The longest way on which a search got stuck: its actions, and where it ended."""
-
-    actions: tuple[Act, ...] = ()
-    node: Node | None = None
-    state: State = ()
-
-    def consider(self, steps: list[_Step]) -> None:
-        """Remember a dead end if it is the deepest so far."""
-        if self.node is None or steps[-1].actions > len(self.actions):
-            self.actions = tuple(step.label for step in steps if isinstance(step.label, Act))
-            self.node, self.state = steps[-1].node, steps[-1].state
 
 
 @dataclass(slots=True)
@@ -81,7 +67,7 @@ def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: D
                 break
         else:
             if dead_end is not None and not step.leads_on:
-                dead_end.consider(steps)
+                dead_end.consider(step.actions, (step.label for step in steps), step.node, step.state)
             steps.pop()
     return None
 

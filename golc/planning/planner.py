@@ -3,23 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from golc.diagnostics import LimitError
+from golc.planning import cheapest, depth_first, shortest
 from golc.planning.all_plans import enumerate_plans
-from golc.planning.depth_first import DeadEnd, find
-from golc.planning.limits import Budget, Limits
+from golc.planning.dead_end import DeadEnd
+from golc.planning.limits import Budget, GivenUpSearchError, Limits
 from golc.program.blame import Blocked
 from golc.program.build import Builder
 from golc.program.labels import Act
+from golc.program.lookahead import Request
 from golc.program.nodes import Node
 from golc.program.program import Program
-from golc.program.step import Machine, Path
+from golc.program.step import Machine, NoPath, Path
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.recursion import deep_recursion
+from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import Value
+from golc.theory.types import Value, show
 
 
 @dataclass(frozen=True)
@@ -47,28 +50,57 @@ def executable(theory: BasicActionTheory, procedure: str, args: tuple[Value, ...
 
 
 class LookAhead:
-    """What a ``search`` block does: find the first way to its end."""
+    """What a ``search`` block does: find the way to its end that is requested."""
 
     def __init__(self) -> None:
         self._given_up = False
 
-    def __call__(self, machine: Machine, node: Node, state: State) -> Path | None:
-        """The way, or none if there is none; raises ``GivenUpSearchError`` after ``give_up``."""
+    def __call__(self, machine: Machine, node: Node, state: State, request: Request) -> Path | NoPath:
+        """The way, or that there is none; raises ``GivenUpSearchError`` after ``give_up``."""
+        limits = Limits(steps=request.steps, seconds=request.seconds)
+        budget = Budget(limits, given_up=lambda: self._given_up)
         try:
-            return find(machine, node, state, Budget(given_up=lambda: self._given_up))
+            path = _find(request.strategy, machine, node, state, budget)
+        except GivenUpSearchError:
+            raise
+        except LimitError as error:
+            return NoPath(str(error))
         finally:
             self._given_up = False
+        if path is not None:
+            return replace(path, request=request)
+        return NoPath(f"no way of more than {_steps(request.steps)} was considered" if budget.cut else None)
 
     def give_up(self) -> None:
         """Have the search that is under way, otherwise the next one, end without a result; for other threads."""
         self._given_up = True
 
 
+def _find(
+    strategy: Strategy, machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None
+) -> Path | None:
+    match strategy:
+        case Strategy.FIRST:
+            return depth_first.find(machine, node, state, budget, dead_end)
+        case Strategy.SHORTEST:
+            return shortest.find(machine, node, state, budget, dead_end)
+        case Strategy.CHEAPEST:
+            return cheapest.find(machine, node, state, budget, dead_end)
+
+
+def _steps(count: int | None) -> str:
+    return f"{show(count)} step{'' if count == 1 else 's'}"
+
+
 @dataclass(frozen=True)
 class Plan:
-    """A sequence of primitive actions that executes a program to its end."""
+    """A sequence of primitive actions that executes a program to its end.
+
+    ``cost`` is the sum of their costs, of the cheapest plan only.
+    """
 
     actions: tuple[Act, ...]
+    cost: int | None = None
 
 
 @dataclass
@@ -89,13 +121,19 @@ class Outcome:
 
 
 class Planning:
-    """A search for the plans of a program from the initial state; iterate over it, then read its ``outcome``."""
+    """A search for the plans of a program from the initial state; iterate over it, then read its ``outcome``.
 
-    def __init__(self, executable: Executable, limits: Limits, all_plans: bool = False) -> None:
+    One plan, by the ``strategy``, or all of them in program order.
+    """
+
+    def __init__(
+        self, executable: Executable, limits: Limits, all_plans: bool = False, strategy: Strategy = Strategy.FIRST
+    ) -> None:
         self.outcome = Outcome()
         self._executable = executable
         self._budget = Budget(limits)
         self._all = all_plans
+        self._strategy = strategy
         self._dead_end = DeadEnd()
 
     def __iter__(self) -> Iterator[Plan]:
@@ -105,7 +143,7 @@ class Planning:
                 outcome.plans += 1
                 self._count()
                 yield plan
-            if self._budget.cut:
+            if self._budget.cut and (self._all or not outcome.plans):
                 outcome.gave_up = f"no plan of more than {self._budget.limits.steps} steps was considered"
         except LimitError as error:
             outcome.gave_up = str(error)
@@ -119,9 +157,15 @@ class Planning:
         if self._all:
             yield from map(Plan, enumerate_plans(machine, node, state, self._budget, self._dead_end))
         elif machine.final(node, state):
-            yield Plan(())
-        elif path := find(machine, node, state, self._budget, self._dead_end):
-            yield Plan(tuple(label for label in path.labels if isinstance(label, Act)))
+            yield self._plan(Path((node,), (), (state,)))
+        elif path := _find(self._strategy, machine, node, state, self._budget, self._dead_end):
+            yield self._plan(path)
+
+    def _plan(self, path: Path) -> Plan:
+        actions = tuple(label for label in path.labels if isinstance(label, Act))
+        if self._strategy is not Strategy.CHEAPEST:
+            return Plan(actions)
+        return Plan(actions, cheapest.cost(self._executable.dynamics, path))
 
     def _count(self) -> None:
         self.outcome.expanded = self._budget.expanded

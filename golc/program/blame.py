@@ -16,7 +16,7 @@ from golc.theory.types import Value, show, show_call
 
 if TYPE_CHECKING:
     from golc.program.rules import Rule
-    from golc.program.step import Path
+    from golc.program.step import NoPath, Path
 
 
 @dataclass(frozen=True)
@@ -72,7 +72,9 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
         case "lost":
             return _lost(dynamics, state, *details)
         case _:
-            return Blocked(span, "`search` finds no way to the end of its block")
+            (none,) = details
+            text = "`search` finds no way to the end of its block"
+            return Blocked(span, text + (f": {none.limit}" if none.limit else ""))
 
 
 def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked]:
@@ -116,7 +118,7 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
     return Blocked(span, f"`{call}` is not possible")
 
 
-def _lost(dynamics: Dynamics, state: State, path: Path, index: int) -> Blocked:
+def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath) -> Blocked:
     """A plan that no longer leads to the end: what it expected, and how the state is instead."""
     expected = dynamics.show(path.states[index])
     changed = tuple((name, value) for name, value in dynamics.show(state).items() if expected[name] != value)
@@ -124,6 +126,8 @@ def _lost(dynamics: Dynamics, state: State, path: Path, index: int) -> Blocked:
     text = "the plan of `search` no longer leads to its end, and alternatives that it has passed are lost"
     if changed:
         text += f"; it counted on {were}"
+    if none.limit:
+        text += f"; {none.limit}"
     at = path.labels[index].span if index < len(path.labels) else path.labels[-1].span
     return Blocked(at, text, changed, sum(isinstance(label, Act) for label in path.labels[:index]))
 

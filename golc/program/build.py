@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
-from golc.program import concurrency, lookahead, rules
+from golc.program import concurrency, iteration, lookahead, rules, timing
 from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.rules import Rule
@@ -15,6 +16,9 @@ from golc.theory import statements as st
 from golc.theory.terms import Binder, Term, Variable, subterms
 from golc.theory.theory import Parameter, Procedure
 from golc.theory.types import Value, show
+
+LONGEST = 10**9
+"""Seconds; more than 30 years are as good as for ever, and what the clock can count in."""
 
 
 class Builder:
@@ -78,28 +82,39 @@ class Builder:
                 condition_ = self._term(condition, depth)
                 return rules.If(span, condition_, self._rule(then, depth), self._rule(otherwise, depth))
             case st.While(condition=condition, body=body):
-                return rules.While(span, self._term(condition, depth), self._rule(body, depth))
+                return iteration.While(span, self._term(condition, depth), self._rule(body, depth))
             case st.Choose(branches=branches):
                 return rules.Choose(span, self._rules(branches, depth))
             case st.Pick(binders=binders, where=where, body=body):
                 environments = self._environments(binders, where, depth)
                 return rules.Pick(span, environments, self._rule(body, depth + len(binders)))
-            case st.Star(body=body):
-                return rules.Star(span, self._rule(body, depth))
+            case st.Star():
+                return self._star(statement, depth)
+            case st.For():
+                return self._for(statement, depth)
             case st.Let(value=value, body=body):
                 return rules.Let(span, self._term(value, depth), self._rule(body, depth + 1))
             case st.Together(branches=branches):
                 return concurrency.Branching(span, concurrency.Together(span), self._rules(branches, depth))
+            case st.TogetherStar(body=body):
+                return concurrency.TogetherStar(span, self._rule(body, depth))
             case st.Prefer(branches=branches):
                 return concurrency.Branching(span, concurrency.Prefer(span), self._rules(branches, depth))
             case st.Interrupts(handlers=handlers):
                 return concurrency.Interrupts(span, tuple(self._handler(handler, depth) for handler in handlers))
+            case st.Guard(condition=condition, body=body):
+                return concurrency.Guard(span, self._term(condition, depth), condition, self._rule(body, depth))
             case st.Search(body=body):
-                return lookahead.Search(span, self._rule(body, depth))
+                return lookahead.Search(span, self._request(statement, depth), self._rule(body, depth))
             case st.Wait():
                 return rules.WaitRule(span)
             case st.WaitUntil(condition=condition):
                 return rules.WaitUntil(span, self._term(condition, depth), condition)
+            case st.WaitTime(seconds=seconds):
+                return timing.WaitTime(span, self._seconds(seconds, depth))
+            case st.Within(seconds=seconds, body=body, otherwise=otherwise):
+                time = self._seconds(seconds, depth)
+                return timing.Within(span, time, self._rule(body, depth), self._rule(otherwise, depth))
             case st.Say(message=message):
                 return rules.SayRule(span, self._message(message, depth))
             case st.Abort(message=message):
@@ -114,6 +129,43 @@ class Builder:
         for part in reversed(parts[:-1]):
             block = self._sealed(rules.Block(part.span, self._rule(part, depth), block), depth)
         return block
+
+    def _star(self, statement: st.Star, depth: int) -> Rule:
+        body = self._rule(statement.body, depth)
+        if statement.limit is None:
+            return iteration.Star(statement.span, body)
+        return iteration.BoundedStar(statement.span, self._term(statement.limit, depth), body)
+
+    def _for(self, statement: st.For, depth: int) -> Rule:
+        values = tuple(binder.variable.type.values for binder in statement.binders)
+        turn = statement.body
+        if statement.where is not None:
+            turn = st.If(statement.where, turn, st.Skip(span=statement.span), span=statement.span)
+        return iteration.For(statement.span, values, self._rule(turn, depth + len(values)))
+
+    def _request(self, statement: st.Search, depth: int) -> Callable[..., lookahead.Request]:
+        """A function of a state and an environment that says what a ``search`` asks for."""
+        steps = None if statement.steps is None else self._term(statement.steps, depth)
+        seconds = None if statement.seconds is None else self._seconds(statement.seconds, depth)
+        if steps is None and seconds is None:
+            request = lookahead.Request(statement.strategy)
+            return lambda state, env: request
+        return lambda state, env: lookahead.Request(
+            statement.strategy, steps and steps(state, env), seconds and seconds(state, env)
+        )
+
+    def _seconds(self, duration: st.Duration, depth: int) -> Callable[..., float]:
+        """A function of a state and an environment that gives a time in seconds."""
+        if isinstance(duration, Fraction):
+            constant = float(min(duration, Fraction(LONGEST)))
+            return lambda state, env: constant
+        term: Callable[..., int] = self._term(duration, depth)
+
+        def seconds(state: Any, env: Any) -> float:
+            value: int = term(state, env)
+            return float(max(0, min(value, LONGEST)))
+
+        return seconds
 
     def _handler(self, handler: st.Interrupt, depth: int) -> concurrency.On:
         environments = self._environments(handler.binders, handler.condition, depth)

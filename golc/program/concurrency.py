@@ -1,4 +1,4 @@
-"""*Trans* and *Final* of what runs at the same time: concurrency, priorities, interrupts."""
+"""*Trans* and *Final* of what runs at the same time or is watched: concurrency, priorities, interrupts, guards."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 from golc.diagnostics import Span
-from golc.program.frames import Branch, Handler, Token
+from golc.program.frames import Branch, Copy, Guarded, Handler, Token
 from golc.program.nodes import Node
-from golc.program.rules import Env, Found, Rule
+from golc.program.rules import Env, Evaluate, Found, Rule
 from golc.program.walks import Proof, Walk
 from golc.situation.layout import State
 from golc.theory.terms import Term
@@ -33,6 +33,23 @@ class Together(Rule):
     def final(self, proof: Proof, node: Node) -> bool:
         proof.require_all(node.operands)
         return False
+
+
+class TogetherStar(Rule):
+    """*δ∥*: any number of copies, begun one after the other."""
+
+    def __init__(self, span: Span, body: Rule) -> None:
+        super().__init__(span)
+        self.body = body
+        self.together = Together(span)
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        body = walk.machine.program.at(self.body, node.operands)
+        walk.push_inside(body, Copy(self.together, node, walk.outer))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        return True
 
 
 class Prefer(Rule):
@@ -77,6 +94,46 @@ class Branching(Rule):
 
     def instance(self, program: Program, env: Env) -> Node:
         return program.branches(self.whole, tuple([program.at(branch, env) for branch in self.branches]))
+
+
+class Guard(Rule):
+    """*gexec(φ, δ)* as written; its nodes are of the rule ``guarded``."""
+
+    def __init__(self, span: Span, condition: Evaluate, term: Term, body: Rule) -> None:
+        super().__init__(span)
+        self.body = body
+        self.guarded = GuardedBlock(span, condition, term)
+
+    def instance(self, program: Program, env: Env) -> Node:
+        return self.guarded.around(program, env, program.at(self.body, env))
+
+
+class GuardedBlock(Rule):
+    """A step of the block only while the condition holds; over when it does not. Operands environment and block."""
+
+    def __init__(self, span: Span, condition: Evaluate, term: Term) -> None:
+        super().__init__(span)
+        self.condition = condition
+        self.term = term
+
+    def around(self, program: Program, env: Env, block: Node) -> Node:
+        """The node of a block; one that is over needs no guard."""
+        return block if block is program.nil else program.node(self, (env, block))
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        env, block = node.operands
+        if self.condition(walk.state, env):
+            walk.push_inside(block, Guarded(self, env, walk.outer))
+        else:
+            walk.machine.blame(self, "false", self.term, env)
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        env, block = node.operands
+        if not self.condition(proof.state, env):
+            return True
+        proof.require(block)
+        return False
 
 
 class On:

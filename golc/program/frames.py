@@ -9,10 +9,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from golc.program.nodes import Node
+from golc.theory.types import Value
 
 if TYPE_CHECKING:
-    from golc.program.concurrency import Interrupts
+    from golc.program.concurrency import GuardedBlock, Interrupts, Together
+    from golc.program.labels import Clock
     from golc.program.program import Program
+    from golc.program.timing import Watched
 
 
 class Token:
@@ -36,12 +39,16 @@ class Token:
 
 
 class Frame:
-    """The base of all frames; ``outer`` is the next frame outwards, ``token`` the innermost one that is waited for."""
+    """The base of all frames; ``outer`` is the next frame outwards, ``token`` the innermost one that is waited for.
 
-    __slots__ = ("outer", "token")
+    ``starting``: the outermost ``within`` around the part whose clock does not run yet.
+    """
+
+    __slots__ = ("outer", "starting", "token")
 
     def __init__(self, outer: Frame | None, token: Token | None = None) -> None:
         self.outer = outer
+        self.starting: Timed | None = None if outer is None else outer.starting
         self.token: Token | None = token if token is not None or outer is None else outer.token
 
     def wrap(self, program: Program, residual: Node) -> Node:
@@ -99,6 +106,62 @@ class Handler(Frame):
     def wrap(self, program: Program, residual: Node) -> Node:
         bodies = (*self.bodies[: self.index], residual, *self.bodies[self.index + 1 :])
         return program.interrupts(self.rule, self.env, bodies)
+
+
+class Copy(Frame):
+    """The part is one copy beside the iteration it was made from."""
+
+    __slots__ = ("node", "rule")
+
+    def __init__(self, rule: Together, node: Node, outer: Frame | None) -> None:
+        super().__init__(outer)
+        self.rule = rule
+        self.node = node
+
+    def wrap(self, program: Program, residual: Node) -> Node:
+        return program.branches(self.rule, (residual, self.node))
+
+
+class Guarded(Frame):
+    """The part is the body of a ``guard``."""
+
+    __slots__ = ("env", "rule")
+
+    def __init__(self, rule: GuardedBlock, env: tuple[Value, ...], outer: Frame | None) -> None:
+        super().__init__(outer)
+        self.rule = rule
+        self.env = env
+
+    def wrap(self, program: Program, residual: Node) -> Node:
+        return self.rule.around(program, self.env, residual)
+
+
+class Timed(Frame):
+    """The part is the block of a ``within``, whose time is up at a ``moment``.
+
+    ``start``: if its clock does not run yet, the label that starts it and the block as it is.
+    """
+
+    __slots__ = ("env", "moment", "rule", "start")
+
+    def __init__(
+        self,
+        rule: Watched,
+        env: tuple[Value, ...],
+        moment: float,
+        outer: Frame | None,
+        start: tuple[Clock, Node] | None = None,
+    ) -> None:
+        super().__init__(outer)
+        self.rule = rule
+        self.env = env
+        self.moment = moment
+        self.start = start
+        if start is not None and self.starting is None:
+            self.starting = self
+
+    def wrap(self, program: Program, residual: Node) -> Node:
+        return self.rule.around(program, self.env, self.moment, residual)
 
 
 def resume(program: Program, residual: Node, frame: Frame | None) -> Node:

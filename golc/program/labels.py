@@ -39,8 +39,17 @@ class Say:
 
 @dataclass(frozen=True, slots=True)
 class Wait:
-    """Let an exogenous action happen."""
+    """Let an exogenous action happen; if ``timed``, none ends it, but the clock."""
 
+    span: Span = field(compare=False, repr=False)
+    timed: bool = field(default=False, repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Clock:
+    """The clock of ``wait e s`` or ``within e s`` starts; in look-ahead a silent step."""
+
+    seconds: float
     span: Span = field(compare=False, repr=False)
 
 
@@ -52,7 +61,7 @@ class Abort:
     span: Span = field(compare=False, repr=False)
 
 
-Label: TypeAlias = Silent | Act | Say | Wait | Abort
+Label: TypeAlias = Silent | Act | Say | Wait | Clock | Abort
 
 
 class Transition(NamedTuple):

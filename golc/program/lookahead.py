@@ -2,17 +2,47 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, replace
+
 from golc.diagnostics import Span
+from golc.program.labels import Act, Label
 from golc.program.nodes import Node
-from golc.program.rules import Found, Rule
+from golc.program.rules import Env, Found, Rule
 from golc.program.walks import Proof, Walk
+from golc.situation.layout import State
+from golc.theory.statements import Strategy
+
+
+@dataclass(frozen=True)
+class Request:
+    """Which way to the end of a block is wanted: the ``strategy``, at most so many primitive actions (``steps``), found
+    in so many ``seconds`` of wall-clock time; none is no bound."""
+
+    strategy: Strategy = Strategy.FIRST
+    steps: int | None = None
+    seconds: float | None = None
+
+    def after(self, labels: Iterable[Label]) -> Request:
+        """What is wanted of the rest, when these steps have been done: they count."""
+        if self.steps is None:
+            return self
+        return replace(self, steps=self.steps - sum(isinstance(label, Act) for label in labels))
+
+
+ANY = Request()
+"""The first way in program order, however long it is."""
 
 
 class Search(Rule):
-    """*Σ(δ)*: online, the first step of a way to the end of the block; look-ahead sees through it."""
+    """*Σ(δ)*: online, the first step of a way to the end of the block; look-ahead sees through it.
 
-    def __init__(self, span: Span, body: Rule) -> None:
+    ``how``: the request, made when the search begins.
+    """
+
+    def __init__(self, span: Span, how: Callable[[State, Env], Request], body: Rule) -> None:
         super().__init__(span)
+        self.how = how
         self.body = body
         self.may_finish = body.may_finish
 
@@ -21,7 +51,7 @@ class Search(Rule):
         if walk.machine.lookahead:
             walk.push(body)
             return None
-        return walk.machine.begin_search(self, body, walk.state)
+        return walk.machine.begin_search(self, body, walk.state, self.how(walk.state, node.operands))
 
     def final(self, proof: Proof, node: Node) -> bool:
         body = proof.machine.program.at(self.body, node.operands)

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from golc.diagnostics import NOWHERE
 from golc.program.concurrency import Interrupts
+from golc.program.labels import Clock
 from golc.program.lookahead import Following
 from golc.program.nodes import Node, Pool
 from golc.program.rules import Env, Rule, Sequence, Skip
+from golc.program.timing import Pause
 
 
 class Program:
@@ -20,6 +22,7 @@ class Program:
         self._pool = Pool()
         self._sequence = Sequence(NOWHERE)
         self.following = Following(NOWHERE)
+        self._pause = Pause(NOWHERE)
         self.skip = Skip(NOWHERE)
         self.nil = self.skip.closed = self._pool.node(self.skip, ())
 
@@ -53,6 +56,10 @@ class Program:
         for head in reversed(heads):
             rest = self._pool.node(self._sequence, (head, rest))
         return rest
+
+    def pause(self, clock: Clock, now: float) -> Node:
+        """``wait e s`` whose clock has started now."""
+        return self._pool.node(self._pause, (now + clock.seconds, clock.span))
 
     def with_branch(self, whole: Node, index: int, residual: Node) -> Node:
         """A ``together`` or ``prefer`` in which one branch has made a step."""

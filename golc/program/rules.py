@@ -1,4 +1,4 @@
-"""*Trans* and *Final* of the sequential constructs; ``concurrency`` and ``lookahead`` have the others.
+"""*Trans* and *Final* of the sequential constructs; ``iteration``, ``concurrency`` and ``lookahead`` have the others.
 
 The definitions are those of De Giacomo, Lespérance & Levesque (2000), "ConGolog, a concurrent programming language
 based on the situation calculus", with the order of transitions that the golc manual fixes. A rule is a compiled
@@ -213,16 +213,19 @@ class Sequence(Rule):
     needs_all = True
 
     def trans(self, walk: Walk, node: Node) -> Found:
-        """If δ1 is final, δ2's transitions come first, then δ1's."""
-        first, rest = node.operands
-        walk.push_inside(first, Then(rest, walk.outer))
-        if first.may_finish and walk.machine.final(first, walk.state, walk.entered):
-            walk.push(rest)
+        push_in_turn(walk, *node.operands)
         return None
 
     def final(self, proof: Proof, node: Node) -> bool:
         proof.require_all(node.operands)
         return False
+
+
+def push_in_turn(walk: Walk, first: Node, rest: Node) -> None:
+    """The transitions of *δ1; δ2*: if δ1 is final, δ2's come first, then δ1's."""
+    walk.push_inside(first, Then(rest, walk.outer))
+    if first.may_finish and walk.machine.final(first, walk.state, walk.entered):
+        walk.push(rest)
 
 
 class If(Rule):
@@ -245,27 +248,6 @@ class If(Rule):
 
     def final(self, proof: Proof, node: Node) -> bool:
         proof.require(self._branch(proof, node))
-        return False
-
-
-class While(Rule):
-    """Synchronised: the test and the first step of the body are one transition."""
-
-    def __init__(self, span: Span, condition: Evaluate, body: Rule) -> None:
-        super().__init__(span)
-        self.condition = condition
-        self.body = body
-
-    def trans(self, walk: Walk, node: Node) -> Found:
-        if self.condition(walk.state, node.operands):
-            body = walk.machine.program.at(self.body, node.operands)
-            walk.push_inside(body, Then(node, walk.outer))
-        return None
-
-    def final(self, proof: Proof, node: Node) -> bool:
-        if not self.condition(proof.state, node.operands):
-            return True
-        proof.require(proof.machine.program.at(self.body, node.operands))
         return False
 
 
@@ -322,21 +304,6 @@ class Choices(Rule):
         elif not tried:
             walk.machine.blame(self, "no value")
         return None
-
-
-class Star(Rule):
-    """*δ\\**: stop, or the body once more."""
-
-    def __init__(self, span: Span, body: Rule) -> None:
-        super().__init__(span)
-        self.body = body
-
-    def trans(self, walk: Walk, node: Node) -> Found:
-        walk.push_inside(walk.machine.program.at(self.body, node.operands), Then(node, walk.outer))
-        return None
-
-    def final(self, proof: Proof, node: Node) -> bool:
-        return True
 
 
 class Let(Rule):

@@ -53,6 +53,7 @@ class Dynamics:
         self._possible = _Lazy(self._compile_possible)
         self._progress = _Lazy(self._compile_progress)
         self._sense = _Lazy(self._compile_sense)
+        self._cost = _Lazy(self._compile_cost)
 
     def initial(self) -> State:
         """The initial state."""
@@ -71,6 +72,11 @@ class Dynamics:
         """The state after the action: all its effects at once, everything else unchanged."""
         after: State = self._progress[action](state, *args)
         return after
+
+    def cost(self, state: State, action: str, args: Args) -> int:
+        """What the action costs in the situation before it: at least 0; 1 if the theory does not say."""
+        cost: int = self._cost[action](state, *args)
+        return cost
 
     def sense(self, state: State, action: str, args: Args) -> tuple[Value, ...]:
         """What the action's sensed terms are in a state (the one after its effects), in order."""
@@ -129,6 +135,20 @@ class Dynamics:
         cells = variables(len(action.parameters))
         terms = "".join(f"{self.compiler.expression(term, cells)}, " for term in action.senses)
         return self.compiler.function(_signature(cells), [f"return ({terms})"])
+
+    def _compile_cost(self, name: str) -> Callable[..., int]:
+        action = self.theory.actions[name]
+        cells = variables(len(action.parameters))
+        if action.cost is None:
+            return self.compiler.function(_signature(cells), ["return 1"])
+        span = action.cost.span
+
+        def negative(cost: int, *args: Value) -> None:
+            raise errors.negative_cost(span, show_call(name, args), cost)
+
+        call = f"{self.compiler.bind('negative', negative)}(c{''.join(f', {cell.text}' for cell in cells)})"
+        lines = [f"c = {self.compiler.expression(action.cost, cells)}", f"if c < 0: {call}", "return c"]
+        return self.compiler.function(_signature(cells), lines)
 
     def _compile_progress(self, name: str) -> Callable[..., State]:
         action = self.theory.actions[name]

@@ -20,6 +20,12 @@ def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramEr
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
 
 
+def negative_cost(span: Span, call: str, value: int) -> ProgramError:
+    """An action would cost less than nothing."""
+    message = f"the cost of `{call}` would be {show(value)}, but a cost is at least 0"
+    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
+
+
 def nothing(span: Span, where: str) -> ProgramError:
     """``none`` where a value is needed."""
     return ProgramError(

@@ -24,13 +24,18 @@ def parts(statement: Statement) -> tuple[Statement, ...]:
             return inside
         case typed.If(then=then, otherwise=otherwise):
             return (then, otherwise)
+        case typed.Within(body=body, otherwise=otherwise):
+            return (body, otherwise)
         case typed.Choose(branches=inside) | typed.Together(branches=inside) | typed.Prefer(branches=inside):
             return inside
         case (
             typed.While(body=body)
             | typed.Pick(body=body)
             | typed.Star(body=body)
+            | typed.For(body=body)
             | typed.Let(body=body)
+            | typed.TogetherStar(body=body)
+            | typed.Guard(body=body)
             | typed.Search(body=body)
         ):
             return (body,)

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from golc.diagnostics import Code, Label
 from golc.syntax import tree
 from golc.theory import statements as typed
-from golc.theory.context import Context, Signature, first_line
+from golc.theory.context import Context, Signature
 from golc.theory.elaborate_names import doing
-from golc.theory.elaborate_terms import arguments, bind, formula, term
+from golc.theory.elaborate_terms import arguments, bind, fitting, formula, term
 from golc.theory.elaborate_types import parameters
 from golc.theory.elaborate_values import parameter_scope
-from golc.theory.fitting import BROKEN
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.theory import Procedure
-from golc.theory.types import BOOL
+from golc.theory.types import BOOL, INT
 
 
 def procedure_signature(context: Context, entry: Entry) -> Signature:
@@ -41,7 +42,7 @@ def block(context: Context, scope: Scope, node: tree.Block) -> typed.Statement:
 
 
 def statement(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
-    """The program of a statement; what is not supported is a finding and stands as its blocks alone."""
+    """The program of a statement."""
     span = node.span
     match node:
         case tree.Call(target=target):
@@ -80,7 +81,7 @@ def statement(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
         case tree.Abort(message=message):
             return typed.Abort(spoken(context, scope, message), span=span)
         case _:
-            return _limited(context, scope, node)
+            return _repeated(context, scope, node)
 
 
 def spoken(context: Context, scope: Scope, node: tree.Message) -> typed.Message:
@@ -88,41 +89,39 @@ def spoken(context: Context, scope: Scope, node: tree.Message) -> typed.Message:
     return typed.Message(tuple([part if isinstance(part, str) else term(context, scope, part) for part in node.parts]))
 
 
-def _limited(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
-    """The statements of which only some forms are supported."""
-    span, head = node.span, first_line(node.span)
+def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
+    """What does a block several times, under a condition, with look-ahead, or in some time."""
+    span = node.span
     match node:
         case tree.Star(limit=limit, body=body):
-            if limit is not None:
-                context.unsupported("`star at most` is", head)
-            return typed.Star(block(context, scope, body), span=span)
-        case tree.Search(mode=mode, at_most=at_most, within=within, body=body):
-            if mode not in (None, "first") or at_most is not None or within is not None:
-                what = f"`search {mode}` is" if mode not in (None, "first") else "a limit of `search` is"
-                context.unsupported(what, head)
-            return typed.Search(block(context, scope, body), span=span)
-        case tree.For(body=body):
-            context.unsupported("`for` is", head)
-            inner, _ = bind(context, scope, tuple([binder for binder in node.binders if binder.type is not None]))
-            for binder in node.binders:
-                if binder.type is None:
-                    inner, _ = inner.bind(binder.name, BROKEN)
-            return block(context, inner, body)
+            most = None if limit is None else fitting(context, scope, limit, INT, "`star at most`")
+            return typed.Star(most, block(context, scope, body), span=span)
+        case tree.For():
+            inner, binders = bind(context, scope, node.binders)
+            where = None if node.where is None else formula(context, inner, node.where, "`where`")
+            return typed.For(binders, where, block(context, inner, node.body), span=span)
         case tree.TogetherStar(body=body):
-            context.unsupported("`together star` is", head)
-            return block(context, scope, body)
+            return typed.TogetherStar(block(context, scope, body), span=span)
         case tree.Guard(condition=condition, body=body):
-            context.unsupported("`guard` is", head)
-            formula(context, scope, condition, "`guard`")
-            return block(context, scope, body)
-        case tree.Within(body=body, otherwise=otherwise):
-            context.unsupported("`within` is", head)
-            if otherwise is not None:
-                block(context, scope, otherwise)
-            return block(context, scope, body)
-        case _:
-            context.unsupported("`wait` for a time is", span)
-            return typed.Skip(span=span)
+            guard = formula(context, scope, condition, "`guard`")
+            return typed.Guard(guard, block(context, scope, body), span=span)
+        case tree.Search(mode=mode, at_most=at_most, within=within, body=body):
+            strategy = typed.Strategy(mode or "first")
+            steps = None if at_most is None else fitting(context, scope, at_most, INT, "`at most … steps`")
+            seconds = None if within is None else _seconds(context, scope, within)
+            return typed.Search(strategy, steps, seconds, block(context, scope, body), span=span)
+        case tree.Within(duration=duration, body=body):
+            otherwise = typed.Skip(span=span) if node.otherwise is None else block(context, scope, node.otherwise)
+            return typed.Within(_seconds(context, scope, duration), block(context, scope, body), otherwise, span=span)
+        case tree.WaitTime(duration=duration):
+            return typed.WaitTime(_seconds(context, scope, duration), span=span)
+    raise AssertionError(node)
+
+
+def _seconds(context: Context, scope: Scope, node: tree.Expr) -> typed.Duration:
+    if isinstance(node, tree.Real):
+        return Fraction(node.value)
+    return fitting(context, scope, node, INT, "a time in seconds")
 
 
 def _blocks(context: Context, scope: Scope, nodes: tuple[tree.Block, ...]) -> tuple[typed.Statement, ...]:

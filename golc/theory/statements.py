@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from enum import Enum
+from fractions import Fraction
 from typing import TypeAlias
 
 from golc.diagnostics import NOWHERE, Span
@@ -14,6 +16,20 @@ class Base:
     """The base of all statements."""
 
     span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+
+class Strategy(Enum):
+    """Which way to the end of its block ``search`` takes: the first in program order, or the first of the best."""
+
+    FIRST = "first"
+    SHORTEST = "shortest"
+    """The fewest primitive actions."""
+    CHEAPEST = "cheapest"
+    """The least sum of the actions' costs."""
+
+
+Duration: TypeAlias = Term | Fraction
+"""Seconds: an integer term, or a number with decimals."""
 
 
 @dataclass(frozen=True)
@@ -85,6 +101,16 @@ class Pick(Base):
 
 @dataclass(frozen=True)
 class Star(Base):
+    """``limit`` bounds the number of rounds; it is evaluated with the first."""
+
+    limit: Term | None
+    body: Statement
+
+
+@dataclass(frozen=True)
+class For(Base):
+    binders: tuple[Binder, ...]
+    where: Term | None
     body: Statement
 
 
@@ -98,6 +124,11 @@ class Let(Base):
 @dataclass(frozen=True)
 class Together(Base):
     branches: tuple[Statement, ...]
+
+
+@dataclass(frozen=True)
+class TogetherStar(Base):
+    body: Statement
 
 
 @dataclass(frozen=True)
@@ -122,7 +153,18 @@ class Interrupts(Base):
 
 
 @dataclass(frozen=True)
+class Guard(Base):
+    condition: Term
+    body: Statement
+
+
+@dataclass(frozen=True)
 class Search(Base):
+    """``steps`` bounds the actions of a plan and ``seconds`` the time it may take to find one; none: no bound."""
+
+    strategy: Strategy
+    steps: Term | None
+    seconds: Duration | None
     body: Statement
 
 
@@ -134,6 +176,20 @@ class Wait(Base):
 @dataclass(frozen=True)
 class WaitUntil(Base):
     condition: Term
+
+
+@dataclass(frozen=True)
+class WaitTime(Base):
+    seconds: Duration
+
+
+@dataclass(frozen=True)
+class Within(Base):
+    """A missing ``else`` is ``Skip``."""
+
+    seconds: Duration
+    body: Statement
+    otherwise: Statement
 
 
 @dataclass(frozen=True)
@@ -157,13 +213,18 @@ Statement: TypeAlias = (
     | Choose
     | Pick
     | Star
+    | For
     | Let
     | Together
+    | TogetherStar
     | Prefer
     | Interrupts
+    | Guard
     | Search
     | Wait
     | WaitUntil
+    | WaitTime
+    | Within
     | Say
     | Abort
 )

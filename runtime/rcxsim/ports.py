@@ -75,8 +75,11 @@ class PtyPort:
 
 
 def _make_link(link: Path, target: str) -> None:
-    """Make a symbolic link; one that leads nowhere, left behind by a process that was killed, is replaced."""
-    if link.is_symlink() and not link.exists():
+    """Make a symbolic link; one that a killed process left behind is replaced.
+
+    It leads nowhere, or to the new terminal itself: the system gives out the same names again.
+    """
+    if link.is_symlink() and (not link.exists() or str(link.readlink()) == target):
         link.unlink()
     link.symlink_to(target)
 

@@ -103,7 +103,7 @@ def _start(arguments: Sequence[str], complaints: IO[bytes]) -> subprocess.Popen[
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=complaints,
-        env={**os.environ, "PYTHONPATH": f"{home}{os.pathsep}{rest}" if rest else home},
+        env={**os.environ, "PYTHONIOENCODING": "utf-8", "PYTHONPATH": f"{home}{os.pathsep}{rest}" if rest else home},
         start_new_session=True,
     )
 

@@ -156,6 +156,55 @@ def test_a_goal_that_cannot_be_reached_or_is_no_formula() -> None:
     assert golc("plan", ELEVATOR, "--all", "--goal", "lit(3)").returncode == 2
 
 
+CHOICE = """domain choice
+action walk(n: 1..3):
+    cost 2 * n
+action ride:
+    cost 5
+proc control:
+    choose:
+        walk(1)
+        walk(2)
+    or:
+        walk(1)
+        walk(1)
+        walk(1)
+        test false
+    or:
+        ride
+        skip
+    or:
+        walk(1)
+        walk(1)
+"""
+
+
+def test_the_shortest_and_the_cheapest_plan(tmp_path: Path) -> None:
+    file = tmp_path / "choice.gl"
+    file.write_text(CHOICE)
+    assert golc("plan", str(file)).stdout.split() == ["walk(1)", "walk(2)"]
+    assert golc("plan", str(file), "--shortest").stdout.split() == ["ride"]
+    done = golc("plan", str(file), "--cheapest", "--stats")
+    assert done.stdout.split() == ["walk(1)", "walk(1)"]
+    assert done.stderr.startswith("1 plan of cost 4, ")
+    document = json.loads(golc("plan", str(file), "--cheapest", "--format", "json").stdout)
+    assert (document["outcome"], document["cost"]) == ("found", 4)
+
+
+def test_a_plan_within_its_bound_is_a_success(tmp_path: Path) -> None:
+    file = tmp_path / "choice.gl"
+    file.write_text(CHOICE)
+    for strategy in ("--first", "--shortest", "--cheapest"):
+        done = golc("plan", str(file), strategy, "--steps", "1")
+        assert (done.returncode, done.stdout, done.stderr) == (0, "ride\n", "1 plan\n")
+
+
+def test_strategies_exclude_each_other() -> None:
+    done = golc("plan", ELEVATOR, "--shortest", "--cheapest")
+    assert done.returncode == 2
+    assert "--shortest and --cheapest exclude each other" in done.stderr
+
+
 def test_a_pipe_is_written_to_and_stays(tmp_path: Path) -> None:
     pipe = tmp_path / "pipe"
     os.mkfifo(pipe)

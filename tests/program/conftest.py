@@ -8,7 +8,7 @@ import pytest
 
 from golc.diagnostics import Findings, Source
 from golc.planning.planner import Executable, executable
-from golc.program.labels import Abort, Act, Label, Say, Silent, Wait
+from golc.program.labels import Abort, Act, Clock, Label, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.program.step import Machine
 from golc.situation.layout import State
@@ -95,6 +95,8 @@ def spell(label: Label) -> str:
             return "test"
         case Wait():
             return "wait"
+        case Clock():
+            return "clock"
         case Say(text=text):
             return f"say {text}"
         case Abort(text=text):

@@ -1,5 +1,6 @@
 """Random programs: the machine's *Trans* and *Final* are those of the definitions, written out naively here.
 
+The clock stands still: a wait for a time does not end, and no time is up.
 The naive evaluator works on the typed statements by recursion, builds no normal forms, and computes everything at once.
 """
 
@@ -41,6 +42,15 @@ class Definitions:
                     if found := self._branch("prefer", parts, index, s, entered):
                         return found
                 return []
+            case ("guard", condition, env, inside):
+                steps = self.trans(inside, s, entered) if self.i.holds(condition, s, env) else []
+                return [(label, ("guard", condition, env, left), after) for label, left, after in steps]
+            case ("pause",):
+                return [("wait", p, s)]
+            case ("rounds", _, _, 0):
+                return []
+            case ("rounds", body, env, left):
+                return self._then(("at", body, env), ("rounds", body, env, left - 1), s, entered)
             case ("interrupts", statement, env, bodies):
                 return self._interrupts(statement, env, bodies, s, entered)
             case ("at", statement, env):
@@ -55,6 +65,12 @@ class Definitions:
                 return self.final(first, s, entered) and self.final(rest, s, entered)
             case ("together" | "prefer", parts):
                 return all(self.final(part, s, entered) for part in parts)
+            case ("guard", condition, env, inside):
+                return not self.i.holds(condition, s, env) or self.final(inside, s, entered)
+            case ("rounds", *_):
+                return True
+            case ("pause",):
+                return False
             case ("interrupts", _, _, bodies):
                 return all(b is None or self.final(b, s) for b in bodies) and not self.trans(p, s)
             case ("at", statement, env):
@@ -99,6 +115,8 @@ class Definitions:
                 return [("test", NIL, s)] if self.i.holds(d.condition, s, env) else []
             case typed.Wait():
                 return [] if self.ahead else [("wait", NIL, s)]
+            case typed.WaitTime():
+                return [("clock", NIL if self.ahead else ("pause",), s)]
             case typed.WaitUntil():
                 holds = self.i.holds(d.condition, s, env)
                 if self.ahead:
@@ -108,8 +126,11 @@ class Definitions:
                 if not self.i.holds(d.condition, s, env):
                     return []
                 return self._then(("at", d.body, env), ("at", d, env), s, entered)
-            case typed.Star():
+            case typed.Star(limit=None):
                 return self._then(("at", d.body, env), ("at", d, env), s, entered)
+            case typed.TogetherStar():
+                steps = self.trans(("at", d.body, env), s, entered)
+                return [(label, ("together", (left, ("at", d, env))), after) for label, left, after in steps]
             case typed.Choose():
                 return [t for branch in d.branches for t in self.trans(("at", branch, env), s, entered)]
             case typed.Pick():
@@ -132,9 +153,10 @@ class Definitions:
 
     def _unfolded(self, d: Any, env: Any, s: Any) -> Config:
         """A statement that is another program in this state, without a step."""
+        config: Config
         match d:
             case typed.Sequence():
-                config: Config = ("at", d.parts[-1], env)
+                config = ("at", d.parts[-1], env)
                 for part in reversed(d.parts[:-1]):
                     config = ("seq", ("at", part, env), config)
                 return config
@@ -142,6 +164,19 @@ class Definitions:
                 return ("at", d.then if self.i.holds(d.condition, s, env) else d.otherwise, env)
             case typed.Let():
                 return ("at", d.body, (*env, self.i.evaluate(d.value, s, env)))
+            case typed.Star():
+                most: Any = d.limit and self.i.evaluate(d.limit, s, env)
+                return ("rounds", d.body, env, max(0, most))
+            case typed.For():
+                config = NIL
+                for inner in reversed(list(self.i.bindings(d.binders, None, s, env))):
+                    turn = d.body if d.where is None else typed.If(d.where, d.body, typed.Skip())
+                    config = ("seq", ("at", turn, inner), config)
+                return config
+            case typed.Within():
+                return ("at", d.body, env)
+            case typed.Guard():
+                return ("guard", d.condition, env, ("at", d.body, env))
             case typed.Together():
                 return ("together", tuple(("at", branch, env) for branch in d.branches))
             case typed.Prefer():
@@ -152,9 +187,9 @@ class Definitions:
 
     def _final(self, d: Any, env: Any, s: Any, entered: frozenset[str]) -> bool:
         match d:
-            case typed.Skip() | typed.Star():
+            case typed.Skip() | typed.Star() | typed.TogetherStar():
                 return True
-            case typed.Perform() | typed.Test() | typed.Wait():
+            case typed.Perform() | typed.Test() | typed.Wait() | typed.WaitTime():
                 return False
             case typed.WaitUntil():
                 return not self.ahead and self.i.holds(d.condition, s, env)
@@ -176,7 +211,7 @@ class Definitions:
 
 
 CONDITIONS = ["x = 0", "x < 2", "not p", "on(1)", "exists n: digit. on(n)", "x % 2 = 1", "true", "false"]
-LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "never", "skip", "wait", "q(1)", "q(x)"]
+LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "never", "skip", "wait", "wait 5 s", "q(1)", "q(x)"]
 PROCEDURES = """
 proc q(n: int):
     choose:
@@ -211,6 +246,12 @@ def lines(depth: int) -> st.SearchStrategy[list[str]]:
             st.tuples(condition, inner, inner).map(lambda t: [f"if {t[0]}:", *t[1], "else:", *t[2]]),
             st.tuples(condition, inner).map(lambda t: [f"while {t[0]}:", *t[1]]),
             inner.map(lambda block: ["star:", *block]),
+            st.tuples(st.sampled_from(["0", "2", "x - 1"]), inner).map(lambda t: [f"star at most {t[0]}:", *t[1]]),
+            inner.map(lambda block: ["together star:", *block]),
+            st.tuples(condition, inner).map(lambda t: [f"guard {t[0]}:", *t[1]]),
+            inner.map(lambda block: ["within x + 1 s:", *block, "else:", "    a"]),
+            inner.map(lambda block: ["for n: digit where on(n):", *block]),
+            inner.map(lambda block: ["for k in 1..2, p2: bool:", "    if p2 = p:", "        act(k)", *block]),
             inner.map(lambda block: ["pick n: digit where on(n):", *block]),
             inner.map(lambda block: ["pick m: digit:", "    off(m)", *block]),
             inner.map(lambda block: ["let y = x + 1:", "    act(y)", *block]),

@@ -5,6 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
+from golc.diagnostics import Code, ProgramError
+
 Start = Callable[..., Any]
 
 BLOCK = """
@@ -182,3 +186,220 @@ def test_a_hundred_steps_are_planned_once(start: Start) -> None:
         programs.add(node.operands[0])
     assert machine.final(node, state)
     assert len(programs) == 1
+
+
+DETOUR = """
+    choose:
+        a
+        b
+        c
+    or:
+        b
+        test {0}
+        b
+    or:
+        c
+        c
+"""
+
+
+def test_search_shortest_takes_the_first_of_the_shortest_ways(start: Start) -> None:
+    block = "search shortest:" + DETOUR.replace("\n", "\n    ")
+    assert start(block.format("true")).run() == ["b", "b"]
+    assert start(block.format("x = 1")).run() == ["c", "c"]
+
+
+def test_search_shortest_counts_actions_only(start: Start) -> None:
+    program = start("""
+        search shortest:
+            choose:
+                a
+                b
+            or:
+                test x = 0
+                say "three steps, but one action"
+                test not p
+                c
+    """)
+    assert program.run()[-1] == "c"
+
+
+COSTS = """
+action walk:
+    cost 3
+action ride:
+    cost x
+action fly:
+    cost 3 - x
+"""
+
+
+def test_search_cheapest_adds_costs_up_as_they_are_before_each_action(start: Start) -> None:
+    block = """
+        search cheapest:
+            choose:
+                walk
+                walk
+            or:
+                inc
+                inc
+                ride
+            or:
+                a
+                a
+                a
+                a
+                a
+    """
+    assert start(block, COSTS).run() == ["inc", "inc", "ride"]
+    assert start(block, COSTS).event("set_x", 1).run() == ["inc", "inc", "ride"]
+    assert start(block, COSTS).event("set_x", 5).run() == ["a", "a", "a", "a", "a"]
+
+
+def test_the_first_of_equally_cheap_ways_is_taken(start: Start) -> None:
+    program = start(
+        """
+        search cheapest:
+            choose:
+                a
+                walk
+            or:
+                walk
+                a
+            or:
+                a
+                a
+                a
+                a
+        """,
+        COSTS,
+    )
+    assert program.run() == ["a", "walk"]
+
+
+def test_ways_of_one_cost_are_in_program_order_though_they_were_found_in_another(start: Start) -> None:
+    program = start(
+        """
+        search cheapest:
+            choose:
+                walk
+                walk
+            or:
+                a
+                a
+                a
+                walk
+            or:
+                a
+                a
+                walk
+                a
+        """,
+        COSTS,
+    )
+    assert program.run() == ["walk", "walk"]
+
+
+def test_a_negative_cost_is_an_error_with_its_place(start: Start) -> None:
+    program = start("search cheapest:\n    fly", COSTS).event("set_x", 5)
+    with pytest.raises(ProgramError) as caught:
+        program.run()
+    diagnostic = caught.value.diagnostic
+    assert diagnostic.code is Code.VALUE_OUTSIDE_TYPE
+    assert diagnostic.message == "the cost of `fly` would be -2, but a cost is at least 0"
+    assert diagnostic.span.text == "3 - x"
+
+
+def test_a_bound_on_steps_that_is_reached_is_the_reason(start: Start) -> None:
+    program = start("""
+        search at most x + 2 steps:
+            while x < 3:
+                inc
+    """)
+    assert program.run() == ["blocked"]
+    [reason] = program.machine.why_blocked(program.node, program.state)
+    assert reason.text == "`search` finds no way to the end of its block: no way of more than 2 steps was considered"
+    assert program.event("set_x", 1).run() == ["inc", "inc"]
+
+
+def test_no_way_at_all_is_told_from_giving_up(start: Start) -> None:
+    program = start("""
+        search at most 9 steps:
+            inc
+            never
+    """)
+    [reason] = program.machine.why_blocked(program.node, program.state)
+    assert reason.text == "`search` finds no way to the end of its block"
+
+
+def test_time_that_is_up_is_the_reason(start: Start) -> None:
+    program = start("""
+        search within 0 s:
+            while x < 1000:
+                inc
+    """)
+    assert program.run() == ["blocked"]
+    [reason] = program.machine.why_blocked(program.node, program.state)
+    assert reason.text.startswith("`search` finds no way to the end of its block: gave up after 0 s (")
+
+
+def test_the_rest_is_searched_by_the_same_strategy(start: Start) -> None:
+    program = start("""
+        search shortest:
+            inc
+            choose:
+                test x = 1
+                a
+            or:
+                b
+                b
+            or:
+                c
+    """)
+    assert program.run() == ["inc", "a"]
+    assert program.take().event("set_x", 4).run() == ["c"]
+
+
+def test_steps_that_have_been_done_count_for_the_bound_of_the_rest(start: Start) -> None:
+    program = start("""
+        search at most 3 steps:
+            inc
+            while x < 2:
+                inc
+    """)
+    assert program.run() == ["inc", "inc"]
+    assert program.take().event("set_x", 0).run() == ["inc", "inc"]
+    after = program.take().event("set_x", -1)
+    assert after.run() == ["blocked"]
+    [reason] = after.machine.why_blocked(after.node, after.state)
+    assert reason.text.endswith("; it counted on x = 1; no way of more than 2 steps was considered")
+
+
+def test_a_request_is_answered_once(start: Start) -> None:
+    """The same block in the same state, first and shortest, are different questions."""
+    program = start(
+        """
+        choose:
+            search first:
+                q
+            test p
+        or:
+            search shortest:
+                q
+    """.replace(
+            "q", "choose:\n                    a\n                    a\n                or:\n                    b"
+        )
+    )
+    assert program.labels() == ["a", "b"]
+
+
+def test_a_search_that_has_come_to_its_end_is_not_blamed(start: Start) -> None:
+    after = start("""
+        search:
+            a
+            test x = 0
+        never
+    """).take()
+    blocked = after.take()
+    reasons = blocked.machine.why_blocked(blocked.node, blocked.state)
+    assert [reason.text for reason in reasons] == ["`never` is not possible: `false` is false"]

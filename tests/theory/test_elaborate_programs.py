@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from fractions import Fraction
 from typing import Any
 
 import pytest
@@ -59,11 +60,29 @@ def test_elif_is_an_if_in_the_else_part(program: Build) -> None:
 
 def test_loops_and_choices(program: Build) -> None:
     assert program("while busy:\n    stop") == typed.While(BUSY, STOP)
-    assert program("star:\n    stop") == typed.Star(STOP)
+    assert program("star:\n    stop") == typed.Star(None, STOP)
     assert program("choose:\n    stop\nor:\n    skip") == typed.Choose((STOP, typed.Skip()))
     assert program("together:\n    stop\nand:\n    skip") == typed.Together((STOP, typed.Skip()))
     assert program("prefer:\n    stop\nover:\n    skip") == typed.Prefer((STOP, typed.Skip()))
-    assert program("search:\n    stop") == program("search first:\n    stop") == typed.Search(STOP)
+    assert program("guard busy:\n    stop") == typed.Guard(BUSY, STOP)
+    assert program("together star:\n    stop") == typed.TogetherStar(STOP)
+    assert program("star at most 3:\n    stop") == typed.Star(Literal(3, type=INT), STOP)
+
+
+def test_search_has_a_strategy_and_limits(program: Build) -> None:
+    first = typed.Search(typed.Strategy.FIRST, None, None, STOP)
+    assert program("search:\n    stop") == program("search first:\n    stop") == first
+    three = Literal(3, type=INT)
+    assert program("search shortest within 2.5 s at most 3 steps:\n    stop") == typed.Search(
+        typed.Strategy.SHORTEST, three, Fraction(5, 2), STOP
+    )
+    assert program("search cheapest within 3 s:\n    stop") == typed.Search(typed.Strategy.CHEAPEST, None, three, STOP)
+
+
+def test_for_binds_the_next_levels(program: Build) -> None:
+    n = Variable(0, "n", type=STATION)
+    found = program("for n: station where lit(n):\n    go(n)")
+    assert found == typed.For((Binder(n),), FluentTerm("lit", (n,), type=BOOL), go(n))
 
 
 def test_pick_binds_the_next_levels(program: Build) -> None:
@@ -121,3 +140,10 @@ def test_a_long_row_of_procedures_is_no_recursion(theory: Build) -> None:
     lines = [f"proc p{n}:\n    p{n + 1}\n" for n in range(3000)]
     built = theory(HEAD + "".join(lines) + "proc p3000:\n    stop\n")
     assert not built.procedures["p0"].recursive
+
+
+def test_times_are_terms_or_have_decimals(program: Build) -> None:
+    five = Literal(5, type=INT)
+    assert program("wait 5 s") == typed.WaitTime(five)
+    assert program("within 0.5 s:\n    stop") == typed.Within(Fraction(1, 2), STOP, typed.Skip())
+    assert program("within 5 s:\n    stop\nelse:\n    go(1)") == typed.Within(five, STOP, go(1))

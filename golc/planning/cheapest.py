@@ -1,0 +1,31 @@
+"""The way whose actions cost the least; among equally cheap ones the first in program order."""
+
+from __future__ import annotations
+
+from golc.planning import layers
+from golc.planning.dead_end import DeadEnd
+from golc.planning.limits import Budget
+from golc.program.labels import Act
+from golc.program.nodes import Node
+from golc.program.step import Machine, Path
+from golc.situation.dynamics import Dynamics
+from golc.situation.layout import State
+
+
+def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:
+    """The cheapest way with at least one step to a final pair, or none if there is none.
+
+    ``machine`` looks ahead. Raises ``LimitError`` at a limit and ``ProgramError`` if an action's cost is negative;
+    ``dead_end`` is told where the search got stuck.
+    """
+
+    def weigh(before: State, action: Act) -> int:
+        return machine.dynamics.cost(before, action.action, action.args)
+
+    return layers.find(machine, node, state, budget, weigh, dead_end)
+
+
+def cost(dynamics: Dynamics, path: Path) -> int:
+    """The sum of the costs of a path's actions."""
+    steps = zip(path.states, path.labels, strict=False)
+    return sum(dynamics.cost(before, act.action, act.args) for before, act in steps if isinstance(act, Act))

@@ -1,0 +1,25 @@
+"""Where a search got stuck."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from golc.program.labels import Act, Label
+from golc.program.nodes import Node
+from golc.situation.layout import State
+
+
+@dataclass
+class DeadEnd:
+    """The longest way on which a search got stuck: its actions, and where it ended."""
+
+    actions: tuple[Act, ...] = ()
+    node: Node | None = None
+    state: State = ()
+
+    def consider(self, actions: int, labels: Iterable[Label | None], node: Node, state: State) -> None:
+        """Remember a dead end if it is the deepest so far: the number of its actions, and the steps that led there."""
+        if self.node is None or actions > len(self.actions):
+            self.actions = tuple(label for label in labels if isinstance(label, Act))
+            self.node, self.state = node, state
