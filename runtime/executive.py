@@ -18,6 +18,7 @@ from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
 from golc.planning.limits import GivenUpSearchError
 from golc.planning.planner import Executable
 from golc.program.blame import Blocked as Why
+from golc.program.blame import valued
 from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Abort, Act, Clock, Say, Silent, Wait
 from golc.program.nodes import Node
@@ -44,7 +45,7 @@ from golc.runtime.policy import Policy
 from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
 from golc.situation.layout import State
-from golc.theory.types import show, show_call
+from golc.theory.types import show_call
 
 A_MOMENT = 0.05
 """Real seconds after which a run that would be idle asks again whether a device still has something to report."""
@@ -309,8 +310,8 @@ class Executive(Intake):
             return self._last_failure
         branches = self.machine.why_blocked(node, self.state)
         span = branches[0].span if branches else node.rule.span
-        marker = _blame(branches[0]) if branches else ""
-        labels = tuple(Label(branch.span, _blame(branch)) for branch in branches[1:])
+        marker = valued(branches[0]) if branches else ""
+        labels = tuple(Label(branch.span, valued(branch)) for branch in branches[1:])
         open_ = self._open()
         message = "the program is blocked" + ("" if open_ else ", and no source is open that could report anything")
         notes = tuple(note for branch in branches if (note := self._since_the_plan(branch)))
@@ -328,8 +329,3 @@ class Executive(Intake):
             if not isinstance(item, Act):
                 events.append(show_call(item.action, item.args))
         return f"exogenous actions since the plan was made: {', '.join(reversed(events))}" if events else None
-
-
-def _blame(branch: Why) -> str:
-    values = ", ".join(f"{name} = {show(value)}" for name, value in branch.values)
-    return branch.text + (f" ({values})" if values else "")

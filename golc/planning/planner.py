@@ -24,6 +24,9 @@ from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value, show
 
+MOST_NODES = 500_000
+"""Pairs of program and state after which a ``search`` block gives up online: about 0.5 GB of memory."""
+
 
 @dataclass(frozen=True)
 class Executable:
@@ -57,10 +60,10 @@ class LookAhead:
 
     def __call__(self, machine: Machine, node: Node, state: State, request: Request) -> Path | NoPath:
         """The way, or that there is none; raises ``GivenUpSearchError`` after ``give_up``."""
-        limits = Limits(steps=request.steps, seconds=request.seconds)
-        budget = Budget(limits, given_up=lambda: self._given_up)
+        limits = Limits(steps=request.steps, seconds=request.seconds, nodes=MOST_NODES)
+        budget, dead_end = Budget(limits, given_up=lambda: self._given_up), DeadEnd()
         try:
-            path = _find(request.strategy, machine, node, state, budget)
+            path = _find(request.strategy, machine, node, state, budget, dead_end)
         except GivenUpSearchError:
             raise
         except LimitError as error:
@@ -69,7 +72,10 @@ class LookAhead:
             self._given_up = False
         if path is not None:
             return replace(path, request=request)
-        return NoPath(f"no way of more than {_steps(request.steps)} was considered" if budget.cut else None)
+        limit = f"no way of more than {_steps(request.steps)} was considered" if budget.cut else None
+        if dead_end.node is None:
+            return NoPath(limit)
+        return NoPath(limit, dead_end.actions, tuple(machine.why_blocked(dead_end.node, dead_end.state)))
 
     def give_up(self) -> None:
         """Have the search that is under way, otherwise the next one, end without a result; for other threads."""

@@ -41,8 +41,7 @@ class Blocked:
     actions: int | None = None
 
     def __str__(self) -> str:
-        values = ", ".join(f"{name} = {show(value)}" for name, value in self.values)
-        return f"{self.span}: {self.text}" + (f" ({values})" if values else "")
+        return f"{self.span}: {valued(self)}"
 
 
 def explain(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
@@ -73,8 +72,13 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
             return _lost(dynamics, state, *details)
         case _:
             (none,) = details
-            text = "`search` finds no way to the end of its block"
-            return Blocked(span, text + (f": {none.limit}" if none.limit else ""))
+            return Blocked(span, "`search` finds no way to the end of its block" + _how_far(none))
+
+
+def valued(branch: Blocked) -> str:
+    """Why a branch cannot go on, with the values that things have, in one line."""
+    values = ", ".join(f"{name} = {show(value)}" for name, value in branch.values)
+    return branch.text + (f" ({values})" if values else "")
 
 
 def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked]:
@@ -118,6 +122,15 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
     return Blocked(span, f"`{call}` is not possible")
 
 
+def _how_far(none: NoPath) -> str:
+    """How far a search came that found no way, and what stopped it."""
+    text = f"; {none.limit}" if none.limit else ""
+    if none.reasons:
+        way = f"the longest way was {', '.join(map(str, none.deepest))}; there" if none.deepest else "stuck at once:"
+        text += f"; {way} {' and '.join(map(valued, none.reasons))}"
+    return text
+
+
 def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath) -> Blocked:
     """A plan that no longer leads to the end: what it expected, and how the state is instead."""
     expected = dynamics.show(path.states[index])
@@ -126,8 +139,7 @@ def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath
     text = "the plan of `search` no longer leads to its end, and alternatives that it has passed are lost"
     if changed:
         text += f"; it counted on {were}"
-    if none.limit:
-        text += f"; {none.limit}"
+    text += _how_far(none)
     at = path.labels[index].span if index < len(path.labels) else path.labels[-1].span
     return Blocked(at, text, changed, sum(isinstance(label, Act) for label in path.labels[:index]))
 

@@ -38,9 +38,14 @@ class Path:
 
 @dataclass(frozen=True)
 class NoPath:
-    """There is no way; if a limit kept it from being found, ``limit`` says which."""
+    """There is no way; if a limit kept it from being found, ``limit`` says which.
+
+    ``deepest`` are the actions of the longest way, ``reasons`` what failed at its end.
+    """
 
     limit: str | None = None
+    deepest: tuple[Act, ...] = ()
+    reasons: tuple[Blocked, ...] = ()
 
 
 class Planner(Protocol):

@@ -6,22 +6,16 @@ from collections import Counter
 from collections.abc import Sequence
 
 from golc.diagnostics import Code, Diagnostic, ProgramError, Span
-from golc.program.blame import Blocked, false_parts
+from golc.program.blame import false_parts, valued
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.scenarios import ExpectActions, Expectation, ExpectCount, ExpectFormula
-from golc.theory.types import Value, show, show_call
+from golc.theory.types import Value, show_call
 
 
 def failed(message: str, span: Span, marker: str = "") -> ProgramError:
     """The error of a scenario that does not go as it expects."""
     return ProgramError(Diagnostic(Code.SCENARIO, message, span, marker=marker))
-
-
-def valued(why: Blocked) -> str:
-    """What is false, with the values it speaks of."""
-    values = ", ".join(f"{name} = {show(value)}" for name, value in why.values)
-    return why.text + (f" ({values})" if values else "")
 
 
 class Judge:

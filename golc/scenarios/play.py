@@ -8,11 +8,11 @@ from typing import Any
 
 from golc.diagnostics import Code, Diagnostic, Label, ProgramError, Span
 from golc.planning.planner import executable
-from golc.program.blame import false_parts, impossible
+from golc.program.blame import false_parts, impossible, valued
 from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.invariants import Invariants
 from golc.program.labels import Abort, Act, Say, Wait
-from golc.scenarios.expect import Judge, failed, valued
+from golc.scenarios.expect import Judge, failed
 from golc.situation.layout import State
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.scenarios import Assignment, Assumption, Events, GroundCall, Scenario
@@ -58,6 +58,8 @@ class _Play:
         self.dynamics, self.machine, self.node = ready.dynamics, ready.machine, ready.node
         self.judge = Judge(scenario.expectations, self.dynamics)
         self.invariants = Invariants(self.dynamics)
+        self._now = 0.0
+        self.machine.now = lambda: self._now
         self.state = self._initial()
         self._until = None if scenario.until is None else self._formula(scenario.until)
         self._lines = [
@@ -94,7 +96,7 @@ class _Play:
             if choice is None:
                 if self.machine.final(self.node, self.state):
                     return self._stop("the program is final")
-                if not self._world():
+                if not self._goes_on():
                     raise self._blocked()
                 continue
             label, residual = choice
@@ -106,6 +108,8 @@ class _Play:
                 case Wait(span=span):
                     quiet = 0
                     if not self._world():
+                        if self._later():
+                            continue
                         return self._stop(f"the program waits, at line {span.line}, and nothing more happens")
                 case Say(text=text):
                     self.played.trace.append(f'      "{text}"')
@@ -115,6 +119,19 @@ class _Play:
                 raise runs_in_circles(label.span)
             self.node = residual
         return None
+
+    def _goes_on(self) -> bool:
+        """Something happens in the world, or else time passes."""
+        return self._world() or self._later()
+
+    def _later(self) -> bool:
+        """Let time pass until the program has to be asked again, if a clock of it runs; nothing else takes time."""
+        alarm = self.machine.alarm
+        if alarm is None or alarm <= self._now:
+            return False
+        self._now = alarm
+        self.played.trace.append(f"      {alarm:g} s")
+        return True
 
     def _stop(self, why: str) -> None:
         """The program has come to rest, which must not be before ``until`` holds."""

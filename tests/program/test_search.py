@@ -44,7 +44,8 @@ def test_search_that_finds_no_way_is_blocked_and_has_done_nothing(start: Start) 
     """)
     assert program.run() == ["blocked"]
     assert [blocked.text for blocked in program.machine.why_blocked(program.node, program.state)] == [
-        "`search` finds no way to the end of its block"
+        "`search` finds no way to the end of its block; the longest way was a; "
+        "there `never` is not possible: `false` is false"
     ]
 
 
@@ -102,7 +103,7 @@ def test_an_alternative_already_passed_is_lost(start: Start) -> None:
     [reason] = after.machine.why_blocked(after.node, after.state)
     assert reason.text == (
         "the plan of `search` no longer leads to its end, and alternatives that it has passed are lost; "
-        "it counted on x = 0"
+        "it counted on x = 0; stuck at once: `x = 0` is false (x = 4)"
     )
     assert reason.values == (("x", 4),)
     assert reason.actions == 1
@@ -318,7 +319,7 @@ def test_a_bound_on_steps_that_is_reached_is_the_reason(start: Start) -> None:
     """)
     assert program.run() == ["blocked"]
     [reason] = program.machine.why_blocked(program.node, program.state)
-    assert reason.text == "`search` finds no way to the end of its block: no way of more than 2 steps was considered"
+    assert reason.text == "`search` finds no way to the end of its block; no way of more than 2 steps was considered"
     assert program.event("set_x", 1).run() == ["inc", "inc"]
 
 
@@ -329,7 +330,7 @@ def test_no_way_at_all_is_told_from_giving_up(start: Start) -> None:
             never
     """)
     [reason] = program.machine.why_blocked(program.node, program.state)
-    assert reason.text == "`search` finds no way to the end of its block"
+    assert reason.text.startswith("`search` finds no way to the end of its block; the longest way was ")
 
 
 def test_time_that_is_up_is_the_reason(start: Start) -> None:
@@ -340,7 +341,7 @@ def test_time_that_is_up_is_the_reason(start: Start) -> None:
     """)
     assert program.run() == ["blocked"]
     [reason] = program.machine.why_blocked(program.node, program.state)
-    assert reason.text.startswith("`search` finds no way to the end of its block: gave up after 0 s (")
+    assert reason.text.startswith("`search` finds no way to the end of its block; gave up after 0 s (")
 
 
 def test_the_rest_is_searched_by_the_same_strategy(start: Start) -> None:

@@ -17,6 +17,7 @@ from pathlib import Path
 import pytest
 
 from golc.diagnostics import DeviceError
+from golc.runtime.rcxsim.ports import _make_link
 from golc.runtime.rcxsim.process import BrickOptions, spawn
 
 Sim = Callable[..., "subprocess.Popen[str]"]
@@ -275,3 +276,33 @@ def test_child_survives_the_terminal_s_interrupt(lift_file: Path) -> None:
     with spawn(lift_file) as brick:
         assert os.getsid(brick.pid) != os.getsid(0)
         assert os.getpgid(brick.pid) != os.getpgid(0)
+
+
+def test_a_link_left_behind_to_the_terminal_that_is_given_out_again_is_replaced(tmp_path: Path) -> None:
+    link = tmp_path / "brick"
+    master, slave = os.openpty()
+    name = os.ttyname(slave)
+    link.symlink_to(name)
+
+    _make_link(link, name)
+
+    assert str(link.readlink()) == name
+    os.close(master)
+    os.close(slave)
+
+
+def test_a_link_to_something_else_stays(tmp_path: Path) -> None:
+    link, target = tmp_path / "brick", tmp_path / "target"
+    target.touch()
+    link.symlink_to(target)
+
+    with pytest.raises(FileExistsError):
+        _make_link(link, "/dev/pts/no-such-terminal")
+
+    assert link.readlink() == target
+
+
+def test_the_encoding_of_the_parent_is_not_that_of_the_child(lift_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("PYTHONIOENCODING", "utf-16")
+    with spawn(lift_file) as brick:
+        assert brick.port.startswith("/dev/")

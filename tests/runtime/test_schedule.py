@@ -180,3 +180,11 @@ def test_only_some_lines(delivery: BasicActionTheory) -> None:
     schedule = parsed(delivery, "at 1 s: push_go_button\nat 1 s: request_delivery(1, 2)")
 
     assert [str(e.event) for e in schedule.only(lambda call: not call.args).entries] == ["push_go_button"]
+
+
+@pytest.mark.parametrize(
+    "line", ["at {} s: push_go_button", "on {}th signal_arrival after 1 s: push_go_button", "on look after {} s: x"]
+)
+def test_a_number_without_sense_is_a_wrong_line(delivery: BasicActionTheory, line: str) -> None:
+    ((_, _, message, _),) = said(delivery, line.format("9" * 5000))
+    assert message == "this is not a line of an events file"

@@ -189,3 +189,17 @@ def test_the_scenarios_of_the_examples_go_as_they_expect(path: Path) -> None:
     assert [played.failure for played in (play(theory, each) for each in theory.scenarios.values())] == [None] * len(
         theory.scenarios
     )
+
+
+def test_time_passes_when_nothing_else_can_happen(tmp_path: Path) -> None:
+    path = tmp_path / "clock.gl"
+    path.write_text(
+        "domain clock\nfluent calm: bool = false\naction ring\naction sleep\nexog quiet:\n    causes calm := true\n"
+        "proc control:\n    ring\n    wait 5 s\n    within 10 s:\n        wait until calm\n    else:\n        sleep\n"
+        "scenario late:\n    run control\nscenario early:\n    on quiet after 1\n"
+        "scenario between:\n    on quiet when waiting\n"
+    )
+    theory = load(path)
+    assert play(theory, theory.scenarios["late"]).trace == ["    1 ring", "      5 s", "      15 s", "    2 sleep"]
+    assert play(theory, theory.scenarios["early"]).trace == ["    1 ring", "      <- quiet", "      5 s"]
+    assert play(theory, theory.scenarios["between"]).trace == ["    1 ring", "      <- quiet", "      5 s"]
