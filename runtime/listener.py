@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import selectors
@@ -106,18 +107,23 @@ class _Client:
         self.lines = lines
         self.splitter = Splitter()
         self._sending = threading.Lock()
+        self._lost = False
 
     def answer(self, result: object) -> None:
         """Answer a command; nothing but ``ok`` if there is nothing to tell."""
         self.send("ok" if result is None else f"ok {json.dumps(writable(result), ensure_ascii=False)}")
 
     def send(self, text: str) -> None:
-        """Send a line; a client that does not listen or has gone is left alone."""
+        """Send a line; a client that does not read, or has gone, is hung up on: it must not keep the robot waiting."""
         with self._sending:
+            if self._lost:
+                return
             try:
                 self.connection.sendall(text.encode() + b"\n")
             except OSError:
-                return
+                self._lost = True
+                with contextlib.suppress(OSError):
+                    self.connection.shutdown(socket.SHUT_RDWR)
 
 
 def _bind(host: str, port: int) -> socket.socket:

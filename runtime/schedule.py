@@ -29,7 +29,7 @@ from golc.theory.types import Value
 _TIME = r"(?P<time>\d{1,12}(?:\.\d+)?|\.\d+)\s*s"
 _AT = re.compile(rf"\s*at\s+{_TIME}\s*:(?P<event>.*)")
 _ON = re.compile(
-    r"\s*on\s+(?:(?P<nth>\d{1,12})(?:st|nd|rd|th)\s+)?(?P<action>[^:]*?)(?P<once>\s+once)?\s+after\s+"
+    r"\s*on\s+(?:(?P<nth>\d+)(?:st|nd|rd|th)\s+)?(?P<action>[^:]*?)(?P<once>\s+once)?\s+after\s+"
     + _TIME
     + r"\s*:(?P<event>.*)"
 )
@@ -152,6 +152,9 @@ def _entry(line: Span, theory: BasicActionTheory, findings: Findings) -> At | On
 def _reaction(match: re.Match[str], line: Span, theory: BasicActionTheory, findings: Findings) -> On | None:
     read = read_primitive(theory, _part(match, "action", line), findings)
     event = _event(match, line, theory, findings)
+    if match["nth"] and len(match["nth"]) > 12:
+        findings.error(Code.EVENTS, "nothing happens that often", line)
+        return None
     if match["nth"] and (match["once"] or int(match["nth"]) == 0):
         findings.error(Code.EVENTS, "`once` and the count exclude each other, and counts begin with `1st`", line)
         return None

@@ -6,6 +6,7 @@ touched the file and it may be written anew; otherwise it is left alone and the 
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import re
 from dataclasses import dataclass
@@ -60,7 +61,7 @@ def is_untouched(path: Path) -> bool:
     """Whether a file may be written: there is none, or it is as golc has written it."""
     try:
         if path.exists() and not path.is_file() and not path.is_dir():  # a pipe or a device, which may never end
-            return False
+            raise OSError(errno.EINVAL, "it is no file")
         return is_sealed(path.read_bytes().decode())
     except FileNotFoundError:
         return True

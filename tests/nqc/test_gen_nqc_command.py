@@ -278,13 +278,13 @@ def test_an_nqc_that_hangs_is_ended(tmp_path: Path, monkeypatch: pytest.MonkeyPa
         download(tmp_path / "robot.rcx", Target.RCX2, "/dev/null", None, lambda text: None)
 
 
-def test_a_pipe_in_the_place_of_a_generated_file_is_left_alone(domain: Path) -> None:
+def test_a_pipe_in_the_place_of_a_generated_file_is_an_error(domain: Path, capsys: pytest.CaptureFixture[str]) -> None:
     pipe = domain.parent / "build" / "robot-rcx.nqc"
     pipe.parent.mkdir()
     os.mkfifo(pipe)
-    assert invoke(["gen-nqc", "robot.gl", "-q"]) == 0
+    assert invoke(["gen-nqc", "robot.gl", "-q"]) == 1
+    assert "robot-rcx.nqc` cannot be written: it is no file" in capsys.readouterr().err
     assert pipe.is_fifo()
-    assert pipe.with_name("robot-rcx.nqc.new").is_file()
 
 
 def test_a_pipe_in_the_place_of_behaviours_is_an_error(domain: Path, capsys: pytest.CaptureFixture[str]) -> None:

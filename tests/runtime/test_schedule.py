@@ -183,8 +183,13 @@ def test_only_some_lines(delivery: BasicActionTheory) -> None:
 
 
 @pytest.mark.parametrize(
-    "line", ["at {} s: push_go_button", "on {}th signal_arrival after 1 s: push_go_button", "on look after {} s: x"]
+    ("line", "expected"),
+    [
+        ("at {} s: push_go_button", "this is not a line of an events file"),
+        ("on signal_arrival after {} s: push_go_button", "this is not a line of an events file"),
+        ("on {}th signal_arrival after 1 s: push_go_button", "nothing happens that often"),
+    ],
 )
-def test_a_number_without_sense_is_a_wrong_line(delivery: BasicActionTheory, line: str) -> None:
+def test_a_number_without_sense_is_a_wrong_line(delivery: BasicActionTheory, line: str, expected: str) -> None:
     ((_, _, message, _),) = said(delivery, line.format("9" * 5000))
-    assert message == "this is not a line of an events file"
+    assert message == expected
