@@ -124,3 +124,16 @@ def test_a_port_in_use_is_a_device_error(listener: Listener, delivery: BasicActi
 def test_a_host_that_is_not_ours_is_a_device_error(delivery: BasicActionTheory) -> None:
     with pytest.raises(DeviceError, match="cannot listen on"):
         Listener(delivery, Inbox(), "203.0.113.1", 0)
+
+
+def test_a_client_that_does_not_read_is_hung_up_on(listener: Listener, inbox: Inbox) -> None:
+    with connect(listener) as client:
+        client.write(b"!state\n")
+        item = next_item(inbox)
+        assert isinstance(item, Command)
+        begin = time.monotonic()
+        for _ in range(20):
+            item.reply("x" * 20_000_000)
+        assert time.monotonic() - begin < 15  # one time-out of 2 s, and not one for each answer
+    with connect(listener) as other:
+        assert exchange(other, b"request_delivery(2, 5)") == "ok"
