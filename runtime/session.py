@@ -12,25 +12,25 @@ from pathlib import Path
 
 from golc.diagnostics import Diagnostic, Findings, Source, Span
 from golc.planning.planner import executable
-from golc.runtime.asking import ALL, REMEDIES, AskAboutFailure, AskBeforeActions, always
-from golc.runtime.calls import Call, one_of, read_value
 from golc.runtime.clock import Clock
-from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Args, Device, Router
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, brick_maps, build_devices
-from golc.runtime.executive import Executive, Outcome
-from golc.runtime.exogenous import COMMANDS, Terminal, Timetable, from_operator
-from golc.runtime.happenings import Observer, Remedy
-from golc.runtime.inbox import Inbox
-from golc.runtime.inbox import Source as EventSource
-from golc.runtime.journal import Journal
-from golc.runtime.listener import Listener
-from golc.runtime.policy import OnImpossible, Policy
-from golc.runtime.polling import Poller
-from golc.runtime.schedule import Schedule, read_schedule
+from golc.runtime.devices.desk import Desk
+from golc.runtime.loop.asking import ALL, REMEDIES, AskAboutFailure, AskBeforeActions, always
+from golc.runtime.loop.executive import Executive, Outcome
+from golc.runtime.loop.happenings import Observer, Remedy
+from golc.runtime.loop.inbox import Inbox
+from golc.runtime.loop.inbox import Source as EventSource
+from golc.runtime.loop.policy import OnImpossible, Policy
+from golc.runtime.observers.journal import Journal
+from golc.runtime.observers.trace import BOLD, DIM, MARGIN, Style, Trace, summary
 from golc.runtime.signals import ending_on_signals
-from golc.runtime.trace import BOLD, DIM, MARGIN, Style, Trace, summary
+from golc.runtime.sources.exogenous import COMMANDS, Terminal, Timetable, from_operator
+from golc.runtime.sources.listener import Listener
+from golc.runtime.sources.polling import Poller
+from golc.runtime.sources.schedule import Schedule, read_schedule
+from golc.theory.ground import Call, one_of, read_value
 from golc.theory.statements import Message
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show

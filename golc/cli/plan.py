@@ -113,7 +113,7 @@ def _for_program(
 ) -> tuple[str, Planning]:
     from golc.loading import load
     from golc.planning.planner import Planning, executable
-    from golc.runtime.calls import read_procedure
+    from golc.theory.ground import read_procedure
     from golc.theory.statements import Strategy
 
     theory = load(file, constants)

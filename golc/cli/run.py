@@ -95,10 +95,10 @@ def command(
     import sys
 
     from golc.loading import load
-    from golc.runtime.calls import read_procedure
-    from golc.runtime.happenings import Remedy
-    from golc.runtime.policy import OnImpossible
+    from golc.runtime.loop.happenings import Remedy
+    from golc.runtime.loop.policy import OnImpossible
     from golc.runtime.session import Settings, run_online
+    from golc.theory.ground import read_procedure
 
     theory = load(file, constants)
     program = read_procedure(theory, procedure)
@@ -131,8 +131,8 @@ def _voice(console: Console) -> Voice:
     import sys
 
     from golc.rendering import render
+    from golc.runtime.observers.trace import Style
     from golc.runtime.session import Voice
-    from golc.runtime.trace import Style
 
     encoding = (sys.stdout.encoding or "").lower().replace("-", "")
     style = Style(console.colored(sys.stdout), unicode=encoding.startswith("utf"))

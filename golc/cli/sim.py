@@ -92,7 +92,7 @@ def command(
     from golc.runtime.rcxsim.serve import serve, stopped_by_signals
     from golc.runtime.rcxsim.simulator import build
     from golc.runtime.rcxsim.trace import Trace, to_file
-    from golc.runtime.schedule import read_schedule
+    from golc.runtime.sources.schedule import read_schedule
 
     theory = load(file, constants)
     schedule = None if events is None else read_schedule(events, theory)

@@ -7,9 +7,9 @@ from pathlib import Path
 
 from golc.diagnostics import DeviceError, Findings, UserError
 from golc.nqc.numbering import ActionMap, implied, number_device
-from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Device
 from golc.runtime.devices.bricks import Link, RcxDevice
+from golc.runtime.devices.desk import Desk
 from golc.runtime.devices.host import Host
 from golc.runtime.devices.itself import Itself
 from golc.runtime.devices.operator import Operator, Speak

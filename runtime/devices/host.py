@@ -10,8 +10,8 @@ from pathlib import Path
 from types import ModuleType
 
 from golc.diagnostics import DeviceError
-from golc.runtime.calls import describe
 from golc.runtime.devices.base import Args, Bindings, Device, translated
+from golc.theory.ground import describe
 from golc.theory.suggest import did_you_mean
 from golc.theory.theory import BasicActionTheory, Binding, ByCall
 from golc.theory.types import Type, Value

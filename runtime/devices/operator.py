@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from golc.diagnostics import Findings, Source, Span
-from golc.runtime.calls import describe, read_value
-from golc.runtime.desk import Desk, WrongAnswerError
 from golc.runtime.devices.base import Args, Bindings, Device, translated
+from golc.runtime.devices.desk import Desk, WrongAnswerError
+from golc.theory.ground import describe, read_value
 from golc.theory.statements import Message
 from golc.theory.theory import BasicActionTheory, Binding, ByPrompt
 from golc.theory.types import Type, Value, show_call

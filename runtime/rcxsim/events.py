@@ -12,7 +12,7 @@ from typing import Protocol
 
 from golc.nqc.numbering import ActionMap
 from golc.runtime.rcxsim.world import World
-from golc.runtime.schedule import Player
+from golc.runtime.sources.schedule import Player
 from golc.situation.dynamics import Args
 from golc.situation.layout import State
 

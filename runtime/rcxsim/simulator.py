@@ -12,7 +12,7 @@ from golc.runtime.rcxsim.line import Line, LineOptions
 from golc.runtime.rcxsim.theorybrick import TheoryBrick
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.rcxsim.world import World
-from golc.runtime.schedule import Player, Schedule
+from golc.runtime.sources.schedule import Player, Schedule
 from golc.theory.theory import BasicActionTheory
 
 

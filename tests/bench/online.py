@@ -11,10 +11,10 @@ from pathlib import Path
 from golc.loading import load
 from golc.planning.planner import executable
 from golc.runtime.devices.base import Args, Device, Router
-from golc.runtime.executive import Executive
-from golc.runtime.inbox import Inbox, Report
-from golc.runtime.journal import Journal
-from golc.runtime.policy import Policy
+from golc.runtime.loop.executive import Executive
+from golc.runtime.loop.inbox import Inbox, Report
+from golc.runtime.loop.policy import Policy
+from golc.runtime.observers.journal import Journal
 from golc.theory.theory import Action, BasicActionTheory
 from tests.bench.measure import Row, Unit
 from tests.bench.startup import DELIVERY

@@ -16,7 +16,7 @@ from golc.runtime.rcxsim.frames import Receiver, message, message_in
 from golc.runtime.rcxsim.line import Line, LineOptions
 from golc.runtime.rcxsim.simulator import build
 from golc.runtime.rcxsim.trace import Trace
-from golc.runtime.schedule import Schedule, read_schedule
+from golc.runtime.sources.schedule import Schedule, read_schedule
 from golc.theory.theory import BasicActionTheory
 
 LIFT = """\

@@ -17,10 +17,10 @@ from golc.loading import load
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
-from golc.runtime.executive import Executive, Outcome
-from golc.runtime.happenings import Begun, Happening, Said, TakenIn
-from golc.runtime.inbox import Inbox, Item, Report
-from golc.runtime.policy import Policy
+from golc.runtime.loop.executive import Executive, Outcome
+from golc.runtime.loop.happenings import Begun, Happening, Said, TakenIn
+from golc.runtime.loop.inbox import Inbox, Item, Report
+from golc.runtime.loop.policy import Policy
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
 from golc.theory.theory import Action, BasicActionTheory

@@ -8,10 +8,10 @@ import pytest
 
 from golc.diagnostics import NOWHERE, DeviceError
 from golc.program.labels import Act
-from golc.runtime.asking import AskAboutFailure, AskBeforeActions, always
-from golc.runtime.desk import Desk
+from golc.runtime.devices.desk import Desk
 from golc.runtime.devices.rcx.errors import PortGoneError
-from golc.runtime.happenings import Remedy
+from golc.runtime.loop.asking import AskAboutFailure, AskBeforeActions, always
+from golc.runtime.loop.happenings import Remedy
 
 TURN = Act("turn", (1,), NOWHERE)
 FAILURE = DeviceError("it is stuck")

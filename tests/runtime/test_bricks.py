@@ -11,12 +11,12 @@ import pytest
 
 from golc.diagnostics import DeviceError, GolcError
 from golc.runtime.clock import Clock
-from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Args, Device, GivenUpError
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, build_devices
-from golc.runtime.inbox import Broken, Inbox, Item, Report
-from golc.runtime.polling import Poller
+from golc.runtime.devices.desk import Desk
+from golc.runtime.loop.inbox import Broken, Inbox, Item, Report
+from golc.runtime.sources.polling import Poller
 from golc.theory.theory import BasicActionTheory
 
 SPEED = 10.0

@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from golc.runtime.devices.base import Args, GivenUpError
-from golc.runtime.happenings import End
-from golc.runtime.inbox import Command, Item
-from golc.runtime.policy import Policy
+from golc.runtime.loop.happenings import End
+from golc.runtime.loop.inbox import Command, Item
+from golc.runtime.loop.policy import Policy
 
 Start = Callable[..., Any]
 

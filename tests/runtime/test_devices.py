@@ -11,10 +11,10 @@ import pytest
 
 from golc.diagnostics import DeviceError, UserError
 from golc.loading import load
-from golc.runtime.desk import Desk
 from golc.runtime.devices.base import Device, Router
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, build_devices
+from golc.runtime.devices.desk import Desk
 from golc.runtime.devices.host import load_module
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show

@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 
 from golc.diagnostics import DeviceError, Findings, Source
 from golc.runtime.clock import Clock
-from golc.runtime.desk import Desk, WrongAnswerError
 from golc.runtime.devices.base import GivenUpError
-from golc.runtime.exogenous import LONGEST_LINE, Lines, Splitter, Terminal, Timetable, one_line
-from golc.runtime.happenings import Begun, Done
-from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Report
-from golc.runtime.schedule import parse_schedule
+from golc.runtime.devices.desk import Desk, WrongAnswerError
+from golc.runtime.loop.happenings import Begun, Done
+from golc.runtime.loop.inbox import Closed, Command, Inbox, Item, Refusal, Report
+from golc.runtime.sources.exogenous import LONGEST_LINE, Lines, Splitter, Terminal, Timetable, one_line
+from golc.runtime.sources.schedule import parse_schedule
 from golc.theory.theory import BasicActionTheory
 
 Domains = Callable[[str], BasicActionTheory]

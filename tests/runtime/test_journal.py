@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from golc.diagnostics import DeviceError, ProgramError
-from golc.runtime.inbox import Refusal, Report
-from golc.runtime.journal import Journal, fingerprint, read_journal
+from golc.runtime.loop.inbox import Refusal, Report
+from golc.runtime.observers.journal import Journal, fingerprint, read_journal
 from golc.theory.theory import BasicActionTheory
 
 Start = Callable[..., Any]

@@ -12,8 +12,8 @@ from typing import IO
 import pytest
 
 from golc.diagnostics import DeviceError
-from golc.runtime.inbox import Command, Inbox, Item, Refusal, Report
-from golc.runtime.listener import Listener
+from golc.runtime.loop.inbox import Command, Inbox, Item, Refusal, Report
+from golc.runtime.sources.listener import Listener
 from golc.theory.theory import BasicActionTheory
 
 

@@ -11,7 +11,7 @@ import pytest
 from golc.diagnostics import Code, DeviceError, ProgramError
 from golc.program.circles import CIRCLES
 from golc.runtime.devices.base import Args, GivenUpError
-from golc.runtime.happenings import (
+from golc.runtime.loop.happenings import (
     Blocked,
     Done,
     Dropped,
@@ -26,8 +26,8 @@ from golc.runtime.happenings import (
     TakenIn,
     Waiting,
 )
-from golc.runtime.inbox import Broken, Command, Report
-from golc.runtime.policy import OnImpossible, Policy
+from golc.runtime.loop.inbox import Broken, Command, Report
+from golc.runtime.loop.policy import OnImpossible, Policy
 
 HEAD = """
 domain trial

@@ -10,9 +10,9 @@ import pytest
 
 from golc.diagnostics import Findings, Source, Span
 from golc.loading import load
-from golc.runtime.calls import read_exogenous
-from golc.runtime.happenings import End
-from golc.runtime.inbox import Report
+from golc.runtime.loop.happenings import End
+from golc.runtime.loop.inbox import Report
+from golc.theory.ground import read_exogenous
 from golc.theory.theory import BasicActionTheory
 
 ROOT = Path(__file__).parent.parent.parent

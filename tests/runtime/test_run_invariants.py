@@ -10,8 +10,8 @@ import pytest
 
 from golc.cli import invoke
 from golc.diagnostics import Code, ProgramError
-from golc.runtime.happenings import End, Ended
-from golc.runtime.policy import Policy
+from golc.runtime.loop.happenings import End, Ended
+from golc.runtime.loop.policy import Policy
 
 DOMAIN = """
 domain tank

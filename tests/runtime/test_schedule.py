@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from golc.diagnostics import Findings, Source, UserError
-from golc.runtime.calls import Call
-from golc.runtime.schedule import At, On, Player, Schedule, parse_schedule, read_schedule
+from golc.runtime.sources.schedule import At, On, Player, Schedule, parse_schedule, read_schedule
+from golc.theory.ground import Call
 from golc.theory.theory import BasicActionTheory
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from golc.runtime.happenings import End, Ended
+from golc.runtime.loop.happenings import End, Ended
 from golc.runtime.signals import Interrupted, ending_on_signals
 
 Start = Callable[..., Any]

@@ -11,10 +11,10 @@ from golc.diagnostics import Code, ProgramError
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Router
-from golc.runtime.executive import Executive
-from golc.runtime.happenings import Begun, End, Happening
-from golc.runtime.inbox import Inbox, Report
-from golc.runtime.policy import Policy
+from golc.runtime.loop.executive import Executive
+from golc.runtime.loop.happenings import Begun, End, Happening
+from golc.runtime.loop.inbox import Inbox, Report
+from golc.runtime.loop.policy import Policy
 from golc.theory.types import show_call
 
 DECLARATIONS = """domain trial

@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 
 from golc.diagnostics import DeviceError, Diagnostic
-from golc.runtime.happenings import Remedy
-from golc.runtime.inbox import Closed, Refusal, Report
-from golc.runtime.policy import Policy
-from golc.runtime.trace import Style, Trace, summary
+from golc.runtime.loop.happenings import Remedy
+from golc.runtime.loop.inbox import Closed, Refusal, Report
+from golc.runtime.loop.policy import Policy
+from golc.runtime.observers.trace import Style, Trace, summary
 from golc.theory.theory import BasicActionTheory
 
 Start = Callable[..., Any]

@@ -10,8 +10,8 @@ import socket
 import threading
 
 from golc.diagnostics import DeviceError
-from golc.runtime.exogenous import Lines, Splitter, from_operator, one_line
-from golc.runtime.inbox import Command, Inbox, Item, Refusal, end_thread, reporting_thread
+from golc.runtime.loop.inbox import Command, Inbox, Item, Refusal, end_thread, reporting_thread
+from golc.runtime.sources.exogenous import Lines, Splitter, from_operator, one_line
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import writable
 

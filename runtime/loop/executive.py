@@ -24,8 +24,8 @@ from golc.program.labels import Abort, Act, Clock, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.runtime import clock as clocks
 from golc.runtime.devices.base import Args, Device, GivenUpError, Router
-from golc.runtime.ending import release, verdict_on
-from golc.runtime.happenings import (
+from golc.runtime.loop.ending import release, verdict_on
+from golc.runtime.loop.happenings import (
     Begun,
     Blocked,
     Done,
@@ -39,9 +39,9 @@ from golc.runtime.happenings import (
     Stepped,
     Waiting,
 )
-from golc.runtime.inbox import Inbox, Source
-from golc.runtime.intake import Intake
-from golc.runtime.policy import Policy
+from golc.runtime.loop.inbox import Inbox, Source
+from golc.runtime.loop.intake import Intake
+from golc.runtime.loop.policy import Policy
 from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
 from golc.situation.layout import State

@@ -6,8 +6,8 @@ from collections.abc import Callable, Sequence
 
 from golc.diagnostics import Code, DeviceError, GolcError, ProgramError
 from golc.runtime.devices.base import Device
-from golc.runtime.happenings import End
-from golc.runtime.inbox import Source
+from golc.runtime.loop.happenings import End
+from golc.runtime.loop.inbox import Source
 
 
 def verdict_on(error: BaseException) -> tuple[End, str]:

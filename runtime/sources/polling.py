@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from golc.diagnostics import GolcError
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Device
-from golc.runtime.inbox import Broken, Inbox, Report, end_thread, reporting_thread
+from golc.runtime.loop.inbox import Broken, Inbox, Report, end_thread, reporting_thread
 from golc.theory.theory import Action
 
 

@@ -7,9 +7,9 @@ from collections.abc import Callable
 
 from golc.diagnostics import DeviceError
 from golc.program.labels import Act
-from golc.runtime.desk import Desk, WrongAnswerError
 from golc.runtime.devices.base import GivenUpError
-from golc.runtime.happenings import Remedy
+from golc.runtime.devices.desk import Desk, WrongAnswerError
+from golc.runtime.loop.happenings import Remedy
 
 REMEDIES = {
     "retry": Remedy.RETRY,

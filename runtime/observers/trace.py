@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from golc.diagnostics import DeviceError, Diagnostic, Span, counted
-from golc.runtime.happenings import (
+from golc.runtime.loop.happenings import (
     Begun,
     Blocked,
     Done,
@@ -28,7 +28,7 @@ from golc.runtime.happenings import (
     TakenIn,
     Waiting,
 )
-from golc.runtime.reasons import Reasons, one_line
+from golc.runtime.observers.reasons import Reasons, one_line
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.types import Value, show, show_call

@@ -18,7 +18,7 @@ from typing import Any
 
 from golc.diagnostics import DeviceError, Diagnostic
 from golc.program.blame import Blocked as Why
-from golc.runtime.happenings import (
+from golc.runtime.loop.happenings import (
     Begun,
     Blocked,
     Done,

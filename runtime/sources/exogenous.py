@@ -13,12 +13,12 @@ from collections.abc import Mapping
 from typing import Literal, cast
 
 from golc.diagnostics import Code, Diagnostic, Findings, Source, Span
-from golc.runtime.calls import Call, read_exogenous
 from golc.runtime.clock import Clock
-from golc.runtime.desk import Desk
-from golc.runtime.happenings import Begun, Happening
-from golc.runtime.inbox import Closed, Command, Inbox, Item, Refusal, Reply, Report, end_thread, reporting_thread
-from golc.runtime.schedule import Player, Schedule
+from golc.runtime.devices.desk import Desk
+from golc.runtime.loop.happenings import Begun, Happening
+from golc.runtime.loop.inbox import Closed, Command, Inbox, Item, Refusal, Reply, Report, end_thread, reporting_thread
+from golc.runtime.sources.schedule import Player, Schedule
+from golc.theory.ground import Call, read_exogenous
 from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory
 

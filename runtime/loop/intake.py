@@ -10,9 +10,9 @@ from golc.program.invariants import Invariants
 from golc.program.labels import Act
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device
-from golc.runtime.happenings import Dropped, End, Happening, Observer, Refused, Reset, SourceEnded, TakenIn
-from golc.runtime.inbox import Broken, Closed, Command, Inbox, Item, Refusal, Report
-from golc.runtime.policy import OnImpossible, Policy
+from golc.runtime.loop.happenings import Dropped, End, Happening, Observer, Refused, Reset, SourceEnded, TakenIn
+from golc.runtime.loop.inbox import Broken, Closed, Command, Inbox, Item, Refusal, Report
+from golc.runtime.loop.policy import OnImpossible, Policy
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.types import show_call

@@ -21,8 +21,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from golc.diagnostics import Code, Findings, Source, Span, UserError
-from golc.runtime.calls import Call, read_exogenous, read_primitive
 from golc.syntax.text import read_source
+from golc.theory.ground import Call, read_exogenous, read_primitive
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value
 

@@ -8,7 +8,7 @@ from enum import Enum
 
 from golc.diagnostics import DeviceError
 from golc.program.labels import Act
-from golc.runtime.happenings import Remedy
+from golc.runtime.loop.happenings import Remedy
 
 
 class OnImpossible(Enum):

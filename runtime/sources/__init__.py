@@ -1,0 +1,1 @@
+"""Where exogenous actions come from: the terminal, a schedule, TCP, the bricks."""
