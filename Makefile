@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN = $(VENV)/bin
 
-.PHONY: demo test bench nqc clean
+.PHONY: demo test thorough bench nqc clean
 
 demo: $(VENV)/ready nqc
 	$(BIN)/golc check examples/delivery/delivery.gl
@@ -18,6 +18,10 @@ test: $(VENV)/ready nqc
 	rm -rf build && $(BIN)/pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir build/wheel .
 	tests/packaging/try-wheel $(PYTHON) build/wheel/*.whl
 	$(BIN)/pytest --cov --cov-report=term:skip-covered -q
+
+# Property tests on 5,000 new examples each.
+thorough: $(VENV)/ready nqc
+	GOLC_EXAMPLES=5000 $(BIN)/pytest -q --timeout=3600 tests/syntax/test_round_trip.py tests/situation tests/program/test_definitions.py
 
 bench: $(VENV)/ready
 	$(BIN)/python tests/bench

@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 from collections.abc import Iterator
 
-from tests.bench import online, startup
+from tests.bench import online, programs, startup
 from tests.bench.measure import Row, seconds
 
 
@@ -13,6 +13,7 @@ def every_row() -> Iterator[Row]:
     """The rows of every module."""
     yield from startup.ROWS
     yield from online.ROWS
+    yield from programs.ROWS
 
 
 def calibrate() -> float:
