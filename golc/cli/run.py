@@ -13,6 +13,7 @@ from golc.cli.common import Console, Quantity, address, console_options, constan
 
 if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
+    from golc.runtime.loop.happenings import Remedy
     from golc.runtime.session import Voice
 
 
@@ -92,18 +93,13 @@ def command(
     golc run examples/delivery/delivery.gl
     golc run examples/delivery/delivery.gl --port /dev/ttyUSB0 --journal today.jsonl
     """
-    import sys
-
     from golc.loading import load
-    from golc.runtime.loop.happenings import Remedy
     from golc.runtime.loop.policy import OnImpossible
     from golc.runtime.session import Settings, run_online
     from golc.theory.ground import read_procedure
 
     theory = load(file, constants)
     program = read_procedure(theory, procedure)
-    if on_failure is None:
-        on_failure = "ask" if sys.stdin is not None and sys.stdin.isatty() else "stop"
     settings = Settings(
         port=port,
         events=None if events is None else Path(events),
@@ -111,7 +107,7 @@ def command(
         journal=None if journal is None else Path(journal),
         stop_when_idle=stop_when_idle,
         on_impossible=OnImpossible(on_impossible),
-        on_failure=None if on_failure == "ask" else Remedy(on_failure),
+        on_failure=_remedy(on_failure),
         check_invariants=check_invariants,
         step=step,
         speed=speed,
@@ -124,6 +120,17 @@ def command(
         problem = f"the journal {error} exists already; name another file, or remove that one first"
         raise click.UsageError(problem) from None
     return 0
+
+
+def _remedy(on_failure: str | None) -> Remedy | None:
+    """What is done about every failure; none is to ask the operator, which is the default at a terminal."""
+    import sys
+
+    from golc.runtime.loop.happenings import Remedy
+
+    if on_failure is None:
+        on_failure = "ask" if sys.stdin is not None and sys.stdin.isatty() else "stop"
+    return None if on_failure == "ask" else Remedy(on_failure)
 
 
 def _voice(console: Console) -> Voice:

@@ -440,3 +440,29 @@ def test_look_ahead_cannot_wait_but_can_test(start: Start) -> None:
 def test_a_loop_comes_back_to_the_same_program(start: Start, body: str) -> None:
     program = start(body)
     assert program.take().node is program.node
+
+
+def test_a_star_that_may_stop_does_not_run_for_ever(start: Start) -> None:
+    assert (
+        start("""
+        star:
+            a
+    """).run()
+        == []
+    )
+
+
+def test_names_are_bound_where_they_are_written(start: Start) -> None:
+    program = start(
+        """
+        let n = 7:
+            outer(n)
+            act(n)
+    """,
+        """
+        proc outer(m: int):
+            let n = m + 1:
+                act(n)
+    """,
+    )
+    assert program.run() == ["act(8)", "act(7)"]

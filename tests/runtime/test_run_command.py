@@ -103,7 +103,7 @@ def test_a_legolog_robot_delivers_and_drives_home(
     assert actions == [34, 33, 34, 34, 33, 32, 34, 34, 34, 34, 34]
     assert brick.heard[0] == ABORT
     assert set(brick.heard[len(brick.heard) - brick.heard[::-1].index(START) :]) == {83, ABORT}
-    assert "end: idle: the program waits, at line 80" in out
+    assert "end: idle: the program waits, at line 81" in out
     assert "location = 1, direction = -1, motion = stopped" in out
     records = journal_of(tmp_path / "j")
     assert [record["event"] for record in (records[0], records[-1])] == ["start", "end"]

@@ -58,11 +58,11 @@ def test_the_beginning_of_a_delivery(start: Start, delivery: BasicActionTheory) 
         "  … wait until motion != moving              delivery.gl:71 control",
         "← arrive_at_station            rcx           location 3 → 4, motion moving → stopped",
         "→ signal_arrival               world         delivery.gl:73 control: on stop_requested(location)",
-        "  … wait until not stop_requested(location)  delivery.gl:74 control",
+        "  … wait                                     delivery.gl:75 control",
         "← push_go_button               rcx           holding_delivery_for(4) true → false",
     ]
     assert lines[-5:] == [
-        "end: idle: the program waits, at line 80",
+        "end: idle: the program waits, at line 81",
         "           11 actions and 10 exogenous actions in 0.0 s",
         "           location = 1, direction = -1, motion = stopped",
         "           holding_delivery_for holds for nothing",
