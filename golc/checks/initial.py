@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
+from typing import cast
 
 from golc.diagnostics import Code, Findings
 from golc.theory.closed import Closed, Env, NoValueError
 from golc.theory.fitting import describe
-from golc.theory.terms import Term, Variable, subterms
+from golc.theory.terms import Choice, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Fluent
-from golc.theory.types import show, show_call
+from golc.theory.types import Value, show, show_call
 
 LIMIT = 100_000
 """Instances of one fluent that are looked at."""
@@ -41,7 +42,7 @@ def _not_decided(fluent: Fluent, reason: str, findings: Findings) -> None:
 
 def _instances(fluent: Fluent) -> Iterator[Env]:
     """The arguments that have to be looked at: one of each parameter that the initial value does not depend on."""
-    levels = _levels(fluent.initial)
+    levels = _levels(fluent.initial.among if isinstance(fluent.initial, Choice) else fluent.initial)
     ranges = [
         parameter.type.values if level in levels else parameter.type.values[:1]
         for level, parameter in enumerate(fluent.parameters)
@@ -56,7 +57,7 @@ def _levels(term: Term) -> set[int]:
 def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Findings) -> bool:
     what = show_call(fluent.name, args)
     try:
-        value = closed.evaluate(fluent.initial, args)
+        values = _values(fluent, args, closed)
     except (NoValueError, RecursionError) as error:
         closed.depth = 0
         if closed.steps < 0:
@@ -67,8 +68,16 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
             reason, span = error.reason, error.span
         findings.error(Code.INITIAL_VALUE, f"the initial value of `{what}` cannot be computed: {reason}", span, "here")
         return False
-    if value in fluent.type:
-        return True
-    message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type)}"
-    findings.error(Code.INITIAL_VALUE, message, fluent.initial.span, f"is {show(value)}")
-    return False
+    for value in values:
+        if value not in fluent.type:
+            message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type)}"
+            findings.error(Code.INITIAL_VALUE, message, fluent.initial.span, f"is {show(value)}")
+            return False
+    return True
+
+
+def _values(fluent: Fluent, args: Env, closed: Closed) -> Collection[Value]:
+    """The initial value of an instance, or all that are possible."""
+    if isinstance(fluent.initial, Choice):
+        return cast(Collection[Value], closed.evaluate(fluent.initial.among, args))
+    return (closed.evaluate(fluent.initial, args),)

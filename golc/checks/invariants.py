@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from golc.diagnostics import Code, Findings
 from golc.theory.closed import Closed, Env, NoValueError
-from golc.theory.terms import FluentTerm, PossTerm, Term
+from golc.theory.terms import Choice, FluentTerm, PossTerm, Term
 from golc.theory.theory import BasicActionTheory, Definition
 from golc.theory.types import Value
 
@@ -49,6 +49,8 @@ class Initially(Closed):
         match term:
             case FluentTerm(fluent=name, args=args) if theory is not None:
                 fluent = theory.fluents[name]
+                if isinstance(fluent.initial, Choice):
+                    raise NoValueError(f"`{name}` has several possible initial values", term.span)
                 return self.evaluate(fluent.initial, self._arguments(name, fluent.parameters, args, env))
             case PossTerm(action=name, args=args) if theory is not None:
                 action = theory.actions[name]

@@ -143,6 +143,8 @@ class Compiler:
                 return self._quantified(term, cells, depth + 1)
             case Operation():
                 return self._operation(term, cells, depth + 1)
+            case _:
+                raise AssertionError(term)
 
     def slot(self, place: Place, args: tuple[Term, ...], cells: Cells, depth: int = 0) -> str:
         """An expression for the slot of a fluent's arguments."""

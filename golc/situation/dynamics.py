@@ -16,7 +16,7 @@ from golc.situation.compile import Cells, Compiler, fits, variables
 from golc.situation.interpret import Interpreter
 from golc.situation.layout import Layout, State
 from golc.theory.recursion import EVALUATION, deep_recursion
-from golc.theory.terms import FluentTerm, Term, Variable
+from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
 from golc.theory.types import Value, show_call
 
@@ -36,6 +36,14 @@ class Surprise:
     expected: Value
     fluent: str | None
     span: Span
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Sensing results that are possible, and the state of an agent that has got them."""
+
+    results: tuple[Value, ...]
+    state: State
 
 
 class Dynamics:
@@ -77,6 +85,13 @@ class Dynamics:
         """What the action costs in the situation before it: at least 0; 1 if the theory does not say."""
         cost: int = self._cost[action](state, *args)
         return cost
+
+    def outcomes(self, state: State, action: str, args: Args) -> list[Outcome]:
+        """What the sensing of an action may answer in a state (the one after its effects), each with the state then.
+
+        In the order of the possible worlds; one outcome if the agent knows what will be sensed.
+        """
+        return [Outcome(self.sense(state, action, args), state)]
 
     def sense(self, state: State, action: str, args: Args) -> tuple[Value, ...]:
         """What the action's sensed terms are in a state (the one after its effects), in order."""
@@ -180,6 +195,7 @@ class Dynamics:
     def _assignment(self, effect: Effect, cells: Cells, collect: bool) -> list[str]:
         place = self.layout.places[effect.fluent]
         slot = self.compiler.slot(place, effect.args, cells)
+        assert not isinstance(effect.value, Choice)
         lines = [f"i = {slot}", f"x = {self.compiler.expression(effect.value, cells)}"]
         if not fits(effect.value.type, place.fluent.type):
             values = self.compiler.bind("type", place.fluent.type)
@@ -190,10 +206,13 @@ class Dynamics:
         return [*lines, f"if w.setdefault(i, x) != x: {conflict}(i, w[i], x)"]
 
     def _outside(self, effect: Effect) -> Callable[[int, Value], None]:
+        assert not isinstance(effect.value, Choice)
+        span = effect.value.span
+
         def outside(slot: int, value: Value) -> None:
             name, args = self.layout.ground_fluents[slot]
             type_ = self.theory.fluents[name].type
-            raise errors.value_outside(effect.value.span, show_call(name, args), value, type_)
+            raise errors.value_outside(span, show_call(name, args), value, type_)
 
         return outside
 

@@ -13,6 +13,7 @@ from golc.situation import errors
 from golc.situation.layout import Layout, State
 from golc.theory.terms import (
     Binder,
+    Choice,
     DefinedTerm,
     FluentTerm,
     Literal,
@@ -47,6 +48,7 @@ class Interpreter:
         values: list[Value] = []
         for name, args in self.layout.ground_fluents:
             fluent = self.theory.fluents[name]
+            assert not isinstance(fluent.initial, Choice)
             value = self.evaluate(fluent.initial, (), args)
             if value not in fluent.type:
                 raise errors.value_outside(fluent.initial.span, show_call(name, args), value, fluent.type)
@@ -82,6 +84,8 @@ class Interpreter:
                 return self._quantified(term, state, env)
             case Operation():
                 return self._operation(term, state, env)
+            case _:
+                raise AssertionError(term)
 
     def possible(self, action: Action, state: State, args: Env) -> bool:
         """Whether the action's preconditions hold."""
@@ -109,6 +113,7 @@ class Interpreter:
         fluent = self.theory.fluents[effect.fluent]
         args = self._arguments(fluent.name, fluent.parameters, effect.args, state, env)
         slot = self.layout.places[fluent.name].slot(args)
+        assert not isinstance(effect.value, Choice)
         value = self.evaluate(effect.value, state, env)
         if value not in fluent.type:
             raise errors.value_outside(effect.value.span, show_call(fluent.name, args), value, fluent.type)

@@ -16,7 +16,11 @@ from typing import TypeAlias
 from golc.theory.theory import BasicActionTheory, Fluent
 from golc.theory.types import Type, Value
 
-State: TypeAlias = tuple[Value, ...]
+World: TypeAlias = tuple[Value, ...]
+"""One way the world may be: a value for each slot."""
+
+State: TypeAlias = World
+"""What the agent knows: the only possible world."""
 
 
 @dataclass(frozen=True)

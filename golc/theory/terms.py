@@ -98,6 +98,19 @@ class Operator(Enum):
     IMPLIES = "implies"
     """The right side is evaluated only if the left one holds."""
     IFF = "iff"
+    UNION = "set +"
+    DIFFERENCE = "set -"
+    CONCATENATION = "list +"
+    REMOVAL = "list -"
+    """The elements of the left list that do not occur in the right one."""
+    ELEMENT = "in"
+    """Whether the left operand is an element of the right one, a collection."""
+    INDEX = "[]"
+    """An element of a list, counted from 0; an error outside of it."""
+    LENGTH = "len"
+    FIRST = "first"
+    """Of a list; an error if it is empty, as is ``rest``."""
+    REST = "rest"
     CONDITIONAL = "if"
     """Operands: then, condition, otherwise. The condition is evaluated first, then one of the two."""
 
@@ -124,9 +137,14 @@ class Membership(Base):
 
 @dataclass(frozen=True)
 class Binder:
-    """A variable that runs over the values of a finite type, in order."""
+    """A variable that runs over the values of a finite type or, if ``within`` is given, over those of a collection.
+
+    ``within`` is a term over the variables in scope outside this binder. A set is run through in the order of its
+    elements' type, a list in its own order.
+    """
 
     variable: Variable
+    within: Term | None = None
 
     @property
     def values(self) -> tuple[Value, ...]:
@@ -146,9 +164,71 @@ class Quantified(Base):
     body: Term
 
 
+@dataclass(frozen=True)
+class Display(Base):
+    """``{a, b}`` or ``[a, b]``; the type says which."""
+
+    elements: tuple[Term, ...]
+
+
+@dataclass(frozen=True)
+class Comprehension(Base):
+    """``{e for x: t where φ}`` or ``[…]``; the type says which. A list has the order of the bindings."""
+
+    binders: tuple[Binder, ...]
+    where: Term | None
+    element: Term
+
+
+@dataclass(frozen=True)
+class Text(Base):
+    """A string: pieces of text and the texts of terms, put together."""
+
+    parts: tuple[str | Term, ...]
+
+
+@dataclass(frozen=True)
+class Epistemic(Base):
+    """What the agent knows now: ``knows(φ)``, ``possible(φ)``, or the known value of a term (``known(e)``: whether all
+    possible worlds agree on it)."""
+
+    kind: OneOf["known", "knows", "possible"]
+    body: Term
+
+
+@dataclass(frozen=True)
+class Before(Base):
+    """``before(e)``: what a term was in the situation before the last action; in a ``prune`` only."""
+
+    body: Term
+
+
 Term: TypeAlias = (
-    Literal | Variable | FluentTerm | StaticTerm | DefinedTerm | PossTerm | Operation | Membership | Quantified
+    Literal
+    | Variable
+    | FluentTerm
+    | StaticTerm
+    | DefinedTerm
+    | PossTerm
+    | Operation
+    | Membership
+    | Quantified
+    | Display
+    | Comprehension
+    | Text
+    | Epistemic
+    | Before
 )
+
+
+@dataclass(frozen=True)
+class Choice(Base):
+    """``unknown`` or ``one of e``: afterwards any element of ``among`` is possible. A value of a fluent, not a term.
+
+    ``among`` is a term whose type is a collection; for ``unknown`` the literal list of the fluent's values.
+    """
+
+    among: Term
 
 
 def subterms(term: Term) -> Iterator[Term]:
@@ -173,7 +253,21 @@ def children(term: Term) -> tuple[Term, ...]:
             return args
         case Membership(element=element):
             return (element,)
-        case Quantified(where=where, body=body):
-            return (body,) if where is None else (where, body)
+        case (
+            Quantified(binders=binders, where=where, body=body)
+            | Comprehension(binders=binders, where=where, element=body)
+        ):
+            return (*ranges(binders), *(() if where is None else (where,)), body)
+        case Display(elements=elements):
+            return elements
+        case Text(parts=parts):
+            return tuple([part for part in parts if not isinstance(part, str)])
+        case Epistemic(body=body) | Before(body=body):
+            return (body,)
         case _:
             return ()
+
+
+def ranges(binders: tuple[Binder, ...]) -> tuple[Term, ...]:
+    """The collections that binders run over."""
+    return tuple([binder.within for binder in binders if binder.within is not None])

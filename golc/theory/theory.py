@@ -9,7 +9,7 @@ from fractions import Fraction
 from golc.diagnostics import NOWHERE, Source, Span
 from golc.theory.scenarios import Scenario
 from golc.theory.statements import Message, Statement
-from golc.theory.terms import Binder, Term
+from golc.theory.terms import Binder, Choice, Term
 from golc.theory.types import Type, Value
 
 
@@ -49,7 +49,7 @@ class Fluent(Declared):
 
     parameters: tuple[Parameter, ...]
     type: Type
-    initial: Term
+    initial: Term | Choice
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ class Effect:
     where: Term | None
     fluent: str
     args: tuple[Term, ...]
-    value: Term
+    value: Term | Choice
     condition: Term | None
     span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
 
@@ -87,7 +87,7 @@ class Action(Declared):
 
     ``preconditions`` are the ``poss`` lines, all of which must hold, in order. ``senses`` are evaluated in the
     situation after the action's own effects. ``sources`` names the device kinds that may report an exogenous action
-    (empty: any).
+    (empty: any). ``expected``: look-ahead may count on it.
     Parameters of primitive actions have finite types or ``int``.
     """
 
@@ -98,6 +98,19 @@ class Action(Declared):
     senses: tuple[Term, ...]
     cost: Term | None
     sources: tuple[str, ...] = ()
+    expected: bool = False
+
+
+@dataclass(frozen=True)
+class Prune(Declared):
+    """A bad situation, which look-ahead never enters: one in which ``condition`` holds.
+
+    With an ``action``: only after it; then the variables of the condition are the action's parameters, and ``Before``
+    terms speak of the situation before it.
+    """
+
+    action: str | None
+    condition: Term
 
 
 @dataclass(frozen=True)
@@ -204,6 +217,9 @@ class BasicActionTheory:
     invariants: tuple[str, ...] = ()
     """The definitions that are invariants."""
     scenarios: Mapping[str, Scenario] = field(default_factory=dict)
+    initially: tuple[Term, ...] = ()
+    """What holds in every possible initial world, beside the initial values."""
+    prunes: Mapping[str, Prune] = field(default_factory=dict)
 
     @property
     def symbols(self) -> frozenset[Value]:

@@ -6,10 +6,11 @@ a ``Fraction``, a set a ``frozenset``, a list a ``tuple``.) Types are compared b
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
-from typing import TypeAlias, overload
+from typing import Literal, TypeAlias, cast, overload
 
 Value: TypeAlias = Hashable
 
@@ -59,12 +60,14 @@ class Primitive(Type):
                 return isinstance(value, bool)
             case "string":
                 return isinstance(value, str)
+            case "real":
+                return isinstance(value, int | Fraction) and not isinstance(value, bool)
             case _:
                 return isinstance(value, int) and not isinstance(value, bool)
 
     @property
     def kinds(self) -> frozenset[str]:
-        return frozenset({self.name})
+        return frozenset({"int", "real"} if self.name == "real" else {self.name})
 
     def __str__(self) -> str:
         return self.name
@@ -182,6 +185,25 @@ class _NoneFirst(Sequence[Value]):
 
     def __contains__(self, value: object) -> bool:
         return value is None or value in self.rest
+
+
+@dataclass(frozen=True)
+class Collection(Type):
+    """``set[element]`` or ``list[element]``: as values a ``frozenset`` and a ``tuple``."""
+
+    kind: Literal["set", "list"]
+    element: Type
+
+    def __contains__(self, value: object) -> bool:
+        is_one = isinstance(value, frozenset) if self.kind == "set" else isinstance(value, tuple)
+        return is_one and all(part in self.element for part in cast(Iterable[Value], value))
+
+    @property
+    def kinds(self) -> frozenset[str]:
+        return frozenset({self.kind})
+
+    def __str__(self) -> str:
+        return f"{self.kind}[{self.element}]"
 
 
 NONE = Optional(Enumeration(()))
