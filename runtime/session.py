@@ -207,7 +207,7 @@ class _Session:
 
     def speak(self, message: Message, args: Args) -> str:
         """The text of a message now."""
-        state, evaluate = self.executive.state, self.dynamics.interpreter.evaluate
+        state, evaluate = self.executive.state, self.dynamics.knowing.evaluate
         return "".join(part if isinstance(part, str) else show(evaluate(part, state, args)) for part in message.parts)
 
     def show(self, what: str) -> str:

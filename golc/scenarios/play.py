@@ -13,7 +13,7 @@ from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.invariants import Invariants
 from golc.program.labels import Abort, Act, Say, Wait
 from golc.scenarios.expect import Judge, failed
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.scenarios import Assignment, Assumption, Events, GroundCall, Scenario
 from golc.theory.terms import Term

@@ -44,7 +44,7 @@ from golc.runtime.loop.intake import Intake
 from golc.runtime.loop.policy import Policy
 from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.types import show_call
 
 A_MOMENT = 0.05

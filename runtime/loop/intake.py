@@ -14,7 +14,7 @@ from golc.runtime.loop.happenings import Dropped, End, Happening, Observer, Refu
 from golc.runtime.loop.inbox import Broken, Closed, Command, Inbox, Item, Refusal, Report
 from golc.runtime.loop.policy import OnImpossible, Policy
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.types import show_call
 
 REMEMBERED = 1_000

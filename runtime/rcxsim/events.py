@@ -14,7 +14,7 @@ from golc.nqc.numbering import ActionMap
 from golc.runtime.rcxsim.world import World
 from golc.runtime.sources.schedule import Player
 from golc.situation.dynamics import Args
-from golc.situation.layout import State
+from golc.situation.worlds import State
 
 Event = tuple[str, Args]
 """An exogenous action and its arguments."""

@@ -12,7 +12,7 @@ from golc.diagnostics import ProgramError
 from golc.nqc.numbering import implied
 from golc.runtime.rcxsim.trace import Trace
 from golc.situation.dynamics import Args, Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.terms import FluentTerm
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import Value, show, show_call
