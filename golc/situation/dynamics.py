@@ -135,18 +135,16 @@ class Dynamics:
             surprises.append(Surprise(action, sensed, expected, name, term.span))
         return state, surprises
 
-    def witness(self, state: State, action: str, args: Args) -> State:
+    def witness(self, state: State, action: str, args: Args) -> State | None:
         """What is possible when an exogenous action has occurred, before its effects: the worlds in which it could.
 
-        If it could in none, nothing is learnt.
+        None if it could in no world.
         """
-        if not isinstance(state, Worlds):
-            return state
         function = self._possible_in[action]
         with placed(self.theory.actions[action].preconditions):
             cases = survey(state, lambda world: function(world, *args))
             kept = [case for case, could in cases if could]
-            return keep(state, kept) if kept else state
+            return keep(state, kept) if kept else None
 
     def realize(self, state: State, choose: Callable[[int], int] = lambda count: 0) -> World:
         """One of the possible worlds; ``choose`` takes one of so many alternatives, by default the first."""
