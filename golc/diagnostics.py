@@ -120,7 +120,6 @@ class Code(Enum):
     NO_INITIAL = ("GL050", "a fluent has no initial value")
     INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
     INVARIANT_AT_FIRST = ("GL052", "an invariant is false in the initial state")
-    NO_INITIAL_WORLD = ("GL053", "what is said about the beginning leaves no possible world")
 
     # 060..069: knowledge
     NO_CHOICE = ("GL060", "a fluent is one of no values")

@@ -198,9 +198,7 @@ def _epistemic(context: Context, scope: Scope, node: tree.Epistemic) -> Term:
 def _before(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term:
     body = term(context, replace(scope, before=False), node)
     if not scope.before:
-        help_ = (
-            "it stands in `prune … after … when`, neither inside another one nor inside `known`, `knows`, `possible`"
-        )
+        help_ = "it stands in `prune … after … when`, but not inside another one or inside `knows` and the like"
         context.error(Code.MISPLACED_CLAUSE, "`before(…)` has no meaning here", span, "before what?", help_)
         return broken(span)
     return body if body.type is BROKEN else Before(body, type=body.type, span=span)
