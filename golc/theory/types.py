@@ -1,7 +1,8 @@
 """The types of golc's terms, and the Python values that stand for theirs.
 
-An integer is an ``int``, a symbol its name as a ``str``, a truth value a ``bool``, ``none`` is ``None``. (A ``real`` is
-a ``Fraction``, a set a ``frozenset``, a list a ``tuple``.) Types are compared by structure; names are for messages.
+An integer is an ``int``, a symbol its name as a ``str``, a truth value a ``bool``, ``none`` is ``None``. A real number
+is an ``int`` if it is whole, otherwise a ``Fraction``; a string is a ``str``, a set a ``frozenset``, a list a
+``tuple``. Types are compared by structure; names are for messages.
 """
 
 from __future__ import annotations
@@ -208,6 +209,11 @@ class Collection(Type):
 
 NONE = Optional(Enumeration(()))
 """The type of ``none`` alone."""
+
+
+def number(value: Value) -> Value:
+    """A number in its only form: as an ``int`` if it is whole. Other values stay as they are."""
+    return value.numerator if isinstance(value, Fraction) and value.denominator == 1 else value
 
 
 MOST_BITS = 14_000
