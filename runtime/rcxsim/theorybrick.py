@@ -9,8 +9,8 @@ from dataclasses import dataclass
 from golc.diagnostics import DeviceError, ProgramError
 from golc.nqc.numbering import ActionMap, Entry
 from golc.runtime.rcxsim.events import Event, Events
+from golc.runtime.rcxsim.theoryworld import TheoryWorld
 from golc.runtime.rcxsim.trace import Trace
-from golc.runtime.rcxsim.world import World
 from golc.situation.dynamics import Args
 from golc.theory.theory import ByStart
 from golc.theory.types import show, show_call
@@ -35,7 +35,7 @@ class TheoryBrick:
     """What the control program steers on a brick whose world is the theory."""
 
     def __init__(
-        self, world: World, numbers: ActionMap, events: Events, durations: random.Random, trace: Trace
+        self, world: TheoryWorld, numbers: ActionMap, events: Events, durations: random.Random, trace: Trace
     ) -> None:
         self._world = world
         self._numbers = numbers
