@@ -8,9 +8,9 @@ from dataclasses import dataclass
 
 from golc.diagnostics import DeviceError, ProgramError
 from golc.nqc.numbering import ActionMap, Entry
-from golc.runtime.rcxsim.events import Event, Events
+from golc.runtime.rcxsim.theory.events import Event, Events
+from golc.runtime.rcxsim.theory.world import World
 from golc.runtime.rcxsim.trace import Trace
-from golc.runtime.rcxsim.world import World
 from golc.situation.dynamics import Args
 from golc.theory.theory import ByStart
 from golc.theory.types import show, show_call
