@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from golc.diagnostics import DeviceError, ProgramError
 from golc.nqc.numbering import ActionMap, Entry
 from golc.runtime.rcxsim.theory.events import Event, Events
-from golc.runtime.rcxsim.theory.world import World
+from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.rcxsim.trace import Trace
 from golc.situation.dynamics import Args
 from golc.theory.theory import ByStart
@@ -35,7 +35,7 @@ class TheoryBrick:
     """What the control program steers on a brick whose world is the theory."""
 
     def __init__(
-        self, world: World, numbers: ActionMap, events: Events, durations: random.Random, trace: Trace
+        self, world: TheoryWorld, numbers: ActionMap, events: Events, durations: random.Random, trace: Trace
     ) -> None:
         self._world = world
         self._numbers = numbers

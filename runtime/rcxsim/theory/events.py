@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from golc.nqc.numbering import ActionMap
-from golc.runtime.rcxsim.theory.world import World
+from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.sources.schedule import Player
 from golc.situation.dynamics import Args
 from golc.situation.layout import State
@@ -108,7 +108,7 @@ class Chance:
     is to end), a person does something with it. Now and then something happens by itself that changes the state.
     """
 
-    world: World
+    world: TheoryWorld
     numbers: ActionMap
     random: random.Random
     _tasks: list[_Task] = field(default_factory=list)

@@ -11,7 +11,7 @@ from golc.runtime.rcxsim.theory.behaviours import TheoryBrick
 from golc.runtime.rcxsim.theory.classic import ClassicProgram
 from golc.runtime.rcxsim.theory.events import Chance, Events, Scripted
 from golc.runtime.rcxsim.theory.programs import Programs
-from golc.runtime.rcxsim.theory.world import World
+from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.sources.schedule import Player, Schedule
 from golc.theory.theory import BasicActionTheory
@@ -23,7 +23,7 @@ def build(theory: BasicActionTheory, options: LineOptions, schedule: Schedule | 
     Raises UserError if the theory declares no brick, or if the numbers of one cannot be told apart. ``seed`` decides
     what is left to chance, in a stream for each purpose: more noise does not change how long actions take.
     """
-    world = World(theory, _stream(seed, "world"), trace)
+    world = TheoryWorld(theory, _stream(seed, "world"), trace)
     programs = []
     for numbers in bricks(theory):
         name = numbers.device.name

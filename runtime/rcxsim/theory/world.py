@@ -21,7 +21,7 @@ MOST_INFERRED = 1000
 """Exogenous actions with more instances than this are never taken to have happened unseen."""
 
 
-class World:
+class TheoryWorld:
     """What is true around the simulated brick; actions of either side change it by the theory's effects."""
 
     def __init__(self, theory: BasicActionTheory, chance: random.Random, trace: Trace) -> None:
