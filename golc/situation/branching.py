@@ -9,12 +9,13 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple, cast
 
-from golc.situation import errors
 from golc.situation.compile import Cell, Cells, Compiler, variables
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import MOST_CASES, State, TooManyCasesError, View, Worlds, rebuilt, survey
+from golc.theory import errors
+from golc.theory.order import elements
 from golc.theory.terms import Choice
 from golc.theory.theory import Action, Effect
 from golc.theory.types import Unknown, Value, show_call
@@ -177,10 +178,11 @@ class _Clause:
 
         return self._compiler.checked(value, type_, cells, failure)
 
-    def _options(self, among: Any) -> Options:
+    def _options(self, among: Value) -> Options:
         fluent = self._layout.places[self.effect.fluent].fluent
-        span = self.effect.value.span
-        values = tuple(dict.fromkeys(among))
+        choice = cast(Choice, self.effect.value)
+        span = choice.span
+        values = tuple(dict.fromkeys(elements(among, choice.among.type)))
         if not values:
             raise errors.nothing_possible(span, f"`{fluent.name}`")
         for value in values:
