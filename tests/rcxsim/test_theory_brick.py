@@ -12,7 +12,7 @@ import pytest
 from golc.diagnostics import UserError
 from golc.loading import load
 from golc.runtime.rcxsim.line import LineOptions
-from golc.runtime.rcxsim.simulator import build
+from golc.runtime.rcxsim.theory.simulator import build
 from golc.runtime.rcxsim.trace import Trace
 
 MakeWire = Callable[..., Any]
