@@ -1,4 +1,4 @@
-"""Where a statement that is too long for its line goes on in another one: inside brackets, where they have most room."""
+"""Where a statement that is too long for its line goes on in another one: inside its widest brackets."""
 
 from __future__ import annotations
 

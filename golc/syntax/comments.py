@@ -63,7 +63,7 @@ def lines(text: str) -> list[Line]:
     begins = [*(statement.words[0].start_pos or 0 for statement in statements), len(text)]
     gaps = [_gap(text, start, end) for start, end in zip(ends, begins, strict=True)]
     found: list[Line] = []
-    outer = (0,)
+    outer: tuple[int, ...] = (0,)
     for statement, before, behind in zip(statements, gaps, gaps[1:], strict=False):
         found += _between(before, outer, statement.level)
         found.append(Line(statement.level, tuple(_rows(text, statement.words, before.blank, behind.comment))))

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from lark import Token
 
 from golc.syntax.layout import CLOSING, OPENING
-from golc.syntax.terminals import words as language
+from golc.syntax.words import RESERVED
 
 _BEFORE = """
 TEST IF ELIF WHILE GUARD ON POSS SENSES COST INITIALLY GIVEN UNTIL EXPECT WHEN WHERE ASSIGN
@@ -18,6 +18,10 @@ BEFORE = frozenset(_BEFORE.split())
 
 BEHIND = frozenset({"WHEN", "DOT"})
 """Before these, as at the end of a line or before the colon there, one ends."""
+
+
+PROTECTED = RESERVED | {"actions", "waiting"}
+"""Names that parentheses keep apart from a word of the language: `when (waiting)`, `expect (actions[0] = 1)`."""
 
 
 def without_needless(words: Sequence[Token]) -> list[Token]:
@@ -49,9 +53,8 @@ def _says_nothing(words: Sequence[Token], start: int, end: int, pairs: dict[int,
         return True
     if words[start - 1].type not in BEFORE or not _ends(words, end + 1):
         return False
-    # A name that is also a word of the language may need them to be read as a name: `when (waiting)`.
     first = next(word for word in words[start:] if word.type != "LPAR")
-    return first.type != "NAME" or str(first) not in language()
+    return first.type != "NAME" or str(first) not in PROTECTED
 
 
 def _ends(words: Sequence[Token], place: int) -> bool:

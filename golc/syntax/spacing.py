@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from lark import Token
 
@@ -29,7 +30,7 @@ def spaces(words: Sequence[Token]) -> list[str]:
 
 def _spaces(kinds: list[str]) -> Iterator[str]:
     prefix = kinds[0] == "MINUS"
-    for before, kind in zip(kinds, kinds[1:], strict=False):
+    for before, kind in pairwise(kinds):
         together = (
             prefix
             or kind in LEFT_BOUND

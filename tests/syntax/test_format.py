@@ -80,7 +80,9 @@ def test_a_comment_stays_where_it_is() -> None:
 
 
 def test_a_comment_inside_brackets_stays_where_it_is() -> None:
-    text = "domain d\nstatic f(a: t): t = { # rows\n# the first\n x: 1,   # one\n\n\n       y: 2 # two\n  # no more\n}\n"
+    text = (
+        "domain d\nstatic f(a: t): t = { # rows\n# the first\n x: 1,   # one\n\n\n       y: 2 # two\n  # no more\n}\n"
+    )
     assert layout(text) == (
         "domain d\nstatic f(a: t): t = {  # rows\n    # the first\n    x: 1,  # one\n\n    y: 2  # two\n"
         "    # no more\n}\n"
@@ -138,7 +140,7 @@ def test_a_comment_does_not_count_for_the_length() -> None:
         ("pick x: t where (exists y: t. p(x, y)):\n    a", "pick x: t where exists y: t. p(x, y):\n    a"),
         ("wait until (a)", "wait until a"),
         ("wait (until) s", "wait (until) s"),
-        ("test (waiting)", "test (waiting)"),
+        ("while (at < 3):\n    up", "while at < 3:\n    up"),
         ("test (a  # why\n)", "test (a  # why\n)"),
         ("test (a\nor b)", "test (a\n    or b)"),
     ],
@@ -207,6 +209,18 @@ def test_a_file_keeps_its_tree_and_comments_and_from_another_layout_becomes_the_
         assert layout(disordered(result, Random(seed))) == result
 
 
+@given(st.data())
+def test_parentheses_around_conditions_never_change_the_tree(trees: Any, parsed: Parsed, data: st.DataObject) -> None:
+    file = data.draw(trees.files)
+    wrapped = WORDS.sub(lambda line: f"{line[1]} (({line[2]})){line[3]}", unparse(file))
+
+    assert parsed(layout(wrapped)) == parsed(wrapped)
+    assert layout(layout(wrapped)) == layout(wrapped)
+
+
+WORDS = re.compile(r"^( *(?:test|poss|senses|cost|given|until|initially|if|while|guard))\b (.*?)(:?)$", re.MULTILINE)
+"""Lines that are a word and an expression."""
+
 STRING = r'"(?:\\[^\n]|[^"\\\n])*"'
 PIECES = re.compile(rf"{STRING}|#[^\n]*|\n *|[A-Za-z]\w*|\d+\.\d+|\d+|:=|\.\.|!=|<=|>=|//|[^\s]")
 """What texts are made of; a line end goes with the indentation that follows it."""
@@ -257,7 +271,7 @@ def disordered(text: str, random: Random) -> str:
     lines = []
     for line in text.removesuffix("\n").split("\n"):
         level = (len(line) - len(line.lstrip())) // 4
-        words = re.sub(rf"({STRING}|#.*)|([,=+])", lambda found: found[1] or f" {found[2]} ", line.strip())
+        words = re.sub(rf"({STRING}|#.*)|(,| [=+] )", lambda found: found[1] or f" {found[2]} ", line.strip())
         lines.append(" " * sum(widths[:level]) + words + random.choice(["", " "]))
         if not line:
             lines += [""] * random.randint(0, 2)
