@@ -138,7 +138,7 @@ def test_effects_that_leave_a_type_are_told_and_not_applied(wire: MakeWire) -> N
         lift.act(32)
         lift.poll()
     last = lift.told("done")[-1]
-    assert "outside its type" in last["problem"]
+    assert "is outside" in last["problem"]
     assert last["changed"] == {}
 
 
