@@ -75,10 +75,15 @@ Cells = tuple[Cell, ...]
 
 
 class Compiler:
-    """Makes Python functions of the terms of one theory; statics, definitions and preconditions are made once."""
+    """Makes Python functions of the terms of one theory; statics, definitions and preconditions are made once.
 
-    def __init__(self, theory: BasicActionTheory, layout: Layout) -> None:
+    ``ask`` has the functions behind ``knows(φ)``, ``possible(φ)`` and ``known(e)``: of the function that evaluates what
+    stands inside, and of what that is to be given.
+    """
+
+    def __init__(self, theory: BasicActionTheory, layout: Layout, ask: Mapping[str, Callable[..., bool]] = ASK) -> None:
         self.theory = theory
+        self._ask = ask
         self.layout = layout
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
         self.uncertain = leaves_open(theory)
@@ -156,7 +161,7 @@ class Compiler:
                 return self._operation(term, cells, depth + 1)
             case Epistemic(kind=kind, body=body):
                 function, names = self._function_of(body, cells)
-                return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
+                return f"{self.bind('ask', self._ask[kind])}({', '.join([function, *names])})"
             case _:
                 raise AssertionError(term)
 
