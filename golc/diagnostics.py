@@ -156,6 +156,11 @@ class Code(Enum):
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 
+    NEVER_FIRES = ("GL071", "an interrupt can never fire")
+    STUCK = ("GL072", "an action can never be possible where it stands")
+    CONSTANT = ("GL073", "a condition is always true or always false")
+    ENDLESS_LOOP = ("GL074", "nothing changes the condition of a loop")
+
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")
     NUMBER_CLASH = ("GL082", "two bindings take the same number")

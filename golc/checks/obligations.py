@@ -31,13 +31,13 @@ class Obligations:
         return answer if isinstance(answer, Witness) else None
 
     def is_impossible(self, question: Question, what: str, span: Span) -> bool:
-        """Whether there is provably no situation; that it is not decided is a finding."""
+        """Whether there is provably no situation; that it is not decided is a finding, unless ``what`` is empty."""
         return self._answer(question, what, span) is None
 
     def _answer(self, question: Question, what: str, span: Span) -> Witness | Undecided | None:
         self.asked += 1
         answer = self.prover.answer(question)
-        if isinstance(answer, Undecided):
+        if isinstance(answer, Undecided) and what:
             self.undecided += 1
             message = f"{what} is not decided: {answer.reason}"
             self.findings.warning(Code.NOT_DECIDED, message, span, "not decided", answer.help)
