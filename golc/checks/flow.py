@@ -48,10 +48,9 @@ class Place:
         place = self
         for binder in binders:
             place = replace(place, variables=(*place.variables, Parameter(binder.variable.name, binder.variable.type)))
-            if binder.within is not None:
-                element = Operation(
-                    Operator.ELEMENT, (binder.variable, binder.within), type=BOOL, span=binder.within.span
-                )
+            within = binder.within
+            if within is not None:
+                element = Operation(Operator.ELEMENT, (binder.variable, within), type=BOOL, span=within.span)
                 place = place.knowing(place.asked(element))
         return place
 
@@ -144,7 +143,7 @@ class Flow:
                 labels = [Label(known.term.span, _held(known)) for known in culprits or here]
                 message = f"`{statement.span.text}` can never be possible here"
                 self._obligations.warning(
-                    Code.STUCK, message, statement.span, "never possible", tuple([*labels, *self._why(statement)])
+                    Code.STUCK, message, statement.span, "never possible", (*labels, *self._why(statement))
                 )
                 return replace(place, known=())
         return self._later(self._without(place.knowing(possible), self._touched[statement.action]))

@@ -174,7 +174,7 @@ class Clause:
         what = self.effect.fluent
 
         def failure(outside: Value) -> Exception:
-            return errors.value_outside(value.span, f"`{what}`", outside, type_)
+            return errors.value_outside(value.span, what, outside, type_)
 
         return self._compiler.checked(value, type_, cells, failure)
 
