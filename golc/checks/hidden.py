@@ -9,10 +9,12 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
+from typing import cast
 
+from golc.checks.beginning import Beginning
 from golc.diagnostics import ProgramError
-from golc.situation.dynamics import Dynamics
-from golc.situation.worlds import Readable, State, TooManyCasesError, survey
+from golc.situation.layout import World
+from golc.situation.worlds import Readable, TooManyCasesError, survey
 from golc.theory.fitting import size
 from golc.theory.reading import fluents_read, reached
 from golc.theory.terms import Choice, Comprehension, Epistemic, Literal, Quantified, Term, Variable, subterms
@@ -27,9 +29,10 @@ class UndecidedError(Exception):
     """It would take too much to find out what can be known of a term."""
 
 
-def hidden_fluents(theory: BasicActionTheory, dynamics: Dynamics, state: State) -> frozenset[str]:
-    """The fluents that are hidden for ever; ``state`` is the initial one."""
-    certain = {name for (name, _), value in dynamics.values(state) if not isinstance(value, Unknown)}
+def hidden_fluents(theory: BasicActionTheory, beginning: Beginning) -> frozenset[str]:
+    """The fluents that are hidden for ever."""
+    values = beginning.dynamics.values(beginning.state)
+    certain = {name for (name, _), value in values if not isinstance(value, Unknown)}
     return frozenset(theory.fluents) - certain - _told(theory)
 
 
@@ -91,12 +94,12 @@ class _Case:
 class Hidden:
     """What can be known of terms that read hidden fluents."""
 
-    def __init__(self, theory: BasicActionTheory, dynamics: Dynamics, state: State) -> None:
+    def __init__(self, theory: BasicActionTheory, beginning: Beginning) -> None:
         self.theory = theory
-        self.fluents = hidden_fluents(theory, dynamics, state)
-        self._dynamics = dynamics
-        self._state = state
-        names = [name for name, _ in dynamics.layout.ground_fluents]
+        self.fluents = hidden_fluents(theory, beginning)
+        self._interpreter = beginning.dynamics.interpreter
+        self._state = beginning.state
+        names = [name for name, _ in beginning.dynamics.layout.ground_fluents]
         self._slots = frozenset(slot for slot, name in enumerate(names) if name in self.fluents)
 
     def read_by(self, term: Term) -> list[str]:
@@ -127,14 +130,15 @@ class Hidden:
             try:
                 yield self._known(term, env, supposed)
             except _UnreadError as unread:
-                name, _ = self._dynamics.layout.ground_fluents[unread.slot]
+                name, _ = self._interpreter.layout.ground_fluents[unread.slot]
                 cases += [{**supposed, unread.slot: value} for value in _values(self.theory.fluents[name].type)]
             except ProgramError:
                 continue  # what has no value here is another matter
 
     def _known(self, term: Term, env: tuple[Value, ...], supposed: Mapping[int, Value]) -> Value:
         def ask(world: Readable) -> Value:
-            return self._dynamics.interpreter.evaluate(term, _Case(world, self._slots, supposed), env)
+            case = _Case(world, self._slots, supposed)
+            return self._interpreter.evaluate(term, cast(World, case), env)
 
         first: Value = None
         for number, (_, answer) in enumerate(survey(self._state, ask)):

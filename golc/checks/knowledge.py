@@ -9,10 +9,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Literal, TypeAlias
 
+from golc.checks.beginning import Beginning
 from golc.checks.hidden import Hidden, UndecidedError
 from golc.diagnostics import Code, Findings, Label
-from golc.situation.dynamics import Dynamics
-from golc.situation.worlds import State
 from golc.theory import statements as typed
 from golc.theory.calls import substatements
 from golc.theory.statements import Statement
@@ -24,9 +23,9 @@ Use: TypeAlias = Literal["test", "decision", "value"]
 """What a term is for: it has to be known to be true, to be true or false, or to have some value."""
 
 
-def check_knowledge(theory: BasicActionTheory, dynamics: Dynamics, state: State, findings: Findings) -> None:
-    """Warn of what is asked that can never be known; ``state`` is the initial one."""
-    hidden = Hidden(theory, dynamics, state)
+def check_knowledge(theory: BasicActionTheory, beginning: Beginning, findings: Findings) -> None:
+    """Warn of what is asked that can never be known."""
+    hidden = Hidden(theory, beginning)
     if not hidden.fluents:
         return
     for term, use in _uses(theory):
