@@ -6,9 +6,9 @@ so that no answer here gets slower with time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 from golc.diagnostics import Span
 from golc.situation.beginning import initial_state
@@ -20,6 +20,7 @@ from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
 from golc.theory.fitting import describe
+from golc.theory.order import sort_key
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
@@ -171,11 +172,18 @@ class Dynamics:
 
     def value(self, state: State, fluent: str, args: Args = ()) -> Value:
         """The value of a ground fluent; an ``Unknown`` if the worlds disagree."""
-        return shown(state)[self.layout.places[fluent].slot(args)]
+        return self._in_order(fluent, shown(state)[self.layout.places[fluent].slot(args)])
 
     def values(self, state: State) -> Iterator[tuple[tuple[str, Args], Value]]:
         """Each ground fluent, as name and arguments, with its value or an ``Unknown``."""
-        return zip(self.layout.ground_fluents, shown(state), strict=True)
+        for ground, value in zip(self.layout.ground_fluents, shown(state), strict=True):
+            yield ground, self._in_order(ground[0], value)
+
+    def _in_order(self, fluent: str, value: Value) -> Value:
+        """Possible values in the order of the type: what is not known looks the same, however that came about."""
+        if not isinstance(value, Unknown):
+            return value
+        return Unknown(tuple(sorted(cast(Iterable[Any], value.values), key=sort_key(self.theory.fluents[fluent].type))))
 
     def show(self, state: State) -> dict[str, Value]:
         """Each ground fluent as text with its value or an ``Unknown``."""
