@@ -188,7 +188,7 @@ class Dynamics:
                 indent += "  "
             for condition in (effect.where, effect.condition):
                 if condition is not None:
-                    lines.append(f"{indent}if {self.compiler.expression(condition, inner)}:")
+                    lines.append(f"{indent}if {self.compiler.formula(condition, inner)}:")
                     indent += "  "
             lines += [indent + line for line in self._assignment(effect, inner, collect)]
         return lines
