@@ -15,12 +15,15 @@ from typing import Any, NamedTuple
 from golc.situation import collections, guards
 from golc.situation.collections import known_value, listed
 from golc.situation.layout import Layout, Place
+from golc.situation.worlds import ASK
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
     Binder,
+    Choice,
     Comprehension,
     DefinedTerm,
     Display,
+    Epistemic,
     FluentTerm,
     Literal,
     Membership,
@@ -83,6 +86,7 @@ class Compiler:
         self.theory = theory
         self.layout = layout
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
+        self.uncertain = leaves_open(theory)
         self._made: dict[tuple[str, str], str] = {}
         self._depth = guards.Depth()
 
@@ -94,6 +98,13 @@ class Compiler:
     def term(self, term: Term, depth: int) -> Callable[..., Any]:
         """A function of a state and an environment of ``depth`` variables that evaluates a term."""
         return self.function("s, e", [f"return {self.expression(term, environment(depth))}"])
+
+    def argument_values(
+        self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int
+    ) -> Callable[..., Any]:
+        """A function of a state and an environment that evaluates the arguments of something."""
+        texts = self.arguments(what, parameters, args, environment(depth))
+        return self.function("s, e", [f"return ({''.join(f'{text}, ' for text in texts)})"])
 
     def environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
         """A function of a state and an environment that yields the longer ones which binders and ``where`` make."""
@@ -150,6 +161,9 @@ class Compiler:
                 return self._operation(term, cells, depth + 1)
             case Display() | Comprehension() | Text():
                 return collections.made(self, term, cells, depth + 1)
+            case Epistemic(kind=kind, body=body):
+                function, names = self._function_of(body, cells)
+                return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
             case _:
                 raise AssertionError(term)
 
@@ -221,9 +235,13 @@ class Compiler:
         return name
 
     def _hoisted(self, term: Term, cells: Cells) -> str:
+        function, names = self._function_of(term, cells)
+        return f"{function}({', '.join(names)})"
+
+    def _function_of(self, term: Term, cells: Cells) -> tuple[str, list[str]]:
+        """The name of a function that evaluates a term, and the names of what it is to be given."""
         names = ["s", *dict.fromkeys(cell.text.partition("[")[0] for cell in cells if not cell.known)]
-        parameters = ", ".join(names)
-        return f"{self._define(parameters, [f'return {self.expression(term, cells)}'])}({parameters})"
+        return self._define(", ".join(names), [f"return {self.expression(term, cells)}"]), names
 
     def constant(self, value: Value) -> str:
         """An expression for a value."""
@@ -370,3 +388,11 @@ def fits(inner: Type, outer: Type) -> bool:
         return False
     part, whole = strip_optional(inner), strip_optional(outer)
     return not isinstance(part, Collection) or not isinstance(whole, Collection) or fits(part.element, whole.element)
+
+
+def leaves_open(theory: BasicActionTheory) -> bool:
+    """Whether there may ever be several possible worlds."""
+    effects = (effect for action in theory.actions.values() for effect in action.effects)
+    return any(isinstance(fluent.initial, Choice) for fluent in theory.fluents.values()) or any(
+        isinstance(effect.value, Choice) for effect in effects
+    )
