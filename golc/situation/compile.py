@@ -40,6 +40,9 @@ from golc.theory.terms import (
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
 from golc.theory.types import Collection, Interval, Type, Value, number
 
+FORMULA = "a formula"
+"""What a formula is called where it is `none`."""
+
 DEEPEST = 24
 """Expressions nested deeper go into functions of their own: CPython refuses more than about 200 nested brackets."""
 
@@ -95,9 +98,14 @@ class Compiler:
         function: Callable[..., Any] = self.namespace[self._define(parameters, lines)]
         return function
 
-    def term(self, term: Term, depth: int) -> Callable[..., Any]:
-        """A function of a state and an environment of ``depth`` variables that evaluates a term."""
-        return self.function("s, e", [f"return {self.expression(term, environment(depth))}"])
+    def term(self, term: Term, depth: int, what: str | None = None) -> Callable[..., Any]:
+        """A function of a state and an environment of ``depth`` variables that evaluates a term.
+
+        If the value must not be ``none``, ``what`` says what the term is.
+        """
+        cells = environment(depth)
+        text = self.expression(term, cells) if what is None else self.some(term, cells, 0, what)
+        return self.function("s, e", [f"return {text}"])
 
     def argument_values(
         self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int
@@ -332,7 +340,7 @@ class Compiler:
 
     def formula(self, term: Term, cells: Cells, depth: int = 0) -> str:
         """An expression for a formula, which must not be ``none``."""
-        return self.some(term, cells, depth, "a formula")
+        return self.some(term, cells, depth, FORMULA)
 
     def _quantified(self, term: Quantified, cells: Cells, depth: int) -> str:
         if term.kind in ("exists", "forall"):
