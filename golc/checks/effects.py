@@ -8,7 +8,7 @@ from golc.checks.obligations import Obligations, example
 from golc.diagnostics import Code, Label
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Witness
 from golc.situation.dynamics import is_injective
-from golc.theory.dependence import fluents_of
+from golc.theory.reading import fluents_read
 from golc.theory.terms import Binder, Choice, Operation, Operator
 from golc.theory.theory import Action, Effect, Parameter
 from golc.theory.types import BOOL
@@ -116,7 +116,7 @@ def _differ(first: Effect, one: tuple[int, ...], second: Effect, two: tuple[int,
 def _check_invariant(action: Action, name: str, obligations: Obligations) -> None:
     """The action preserves an invariant."""
     invariant = obligations.theory.definitions[name]
-    touched = {effect.fluent for effect in action.effects} & fluents_of(obligations.theory, invariant.body)
+    touched = {effect.fluent for effect in action.effects} & fluents_read(obligations.theory, [invariant.body])
     if not touched:
         return
     env = tuple(range(len(action.parameters)))

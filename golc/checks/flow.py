@@ -15,7 +15,7 @@ from golc.diagnostics import Code, Label, Span
 from golc.proofs.questions import Asked, Question, Step
 from golc.theory import statements as st
 from golc.theory.calls import substatements
-from golc.theory.dependence import fluents_of
+from golc.theory.reading import fluents_read
 from golc.theory.statements import Statement
 from golc.theory.terms import Binder, Literal, Operation, Operator, PossTerm, Term
 from golc.theory.theory import Parameter
@@ -62,7 +62,7 @@ class Flow:
         self._obligations = obligations
         self._theory = theory = obligations.theory
         self._touched = {
-            action.name: frozenset(effect.fluent for effect in action.effects) | fluents_of(theory, *action.senses)
+            action.name: frozenset(effect.fluent for effect in action.effects) | fluents_read(theory, action.senses)
             for action in theory.actions.values()
         }
         self._performed: dict[str, frozenset[str]] = {}
@@ -162,7 +162,7 @@ class Flow:
         place = self._after_all(statement.body, place)
         self._constant(condition, place, "this condition", true=False)
         self._walk(statement.body, place.knowing(place.asked(condition)))
-        reads = fluents_of(self._theory, condition)
+        reads = fluents_read(self._theory, [condition])
         changing = self._actions(statement.body) | place.others
         if reads and not any(self._touched[name] & reads for name in changing):
             message = "nothing in this loop changes its condition, so that it never ends once it has begun"
@@ -199,7 +199,7 @@ class Flow:
     def _constant(self, condition: Term, place: Place, what: str, only: bool | None = None, true: bool = True) -> None:
         """Report a condition that is always true, or always false; with ``only`` or without ``true`` just one of them.
         What reads no fluent is a matter of constants, which may well be meant."""
-        if not fluents_of(self._theory, condition):
+        if not fluents_read(self._theory, [condition]):
             return
         question = f"whether {what} is always false"
         known = (*place.guards, *place.known)
@@ -226,7 +226,7 @@ class Flow:
             place = kept
 
     def _may_happen(self, name: str, place: Place) -> bool:
-        reads = fluents_of(self._theory, *[known.term for known in place.known])
+        reads = fluents_read(self._theory, [known.term for known in place.known])
         if not self._touched[name] & reads:
             return False
         action = self._theory.actions[name]
@@ -237,7 +237,7 @@ class Flow:
         return not self._obligations.is_impossible(Question(variables, steps), "", action.span)
 
     def _without(self, place: Place, touched: frozenset[str]) -> Place:
-        kept = [known for known in place.known if not fluents_of(self._theory, known.term) & touched]
+        kept = [known for known in place.known if not fluents_read(self._theory, [known.term]) & touched]
         return replace(place, known=tuple(kept))
 
     def _after_all(self, statement: Statement, place: Place) -> Place:

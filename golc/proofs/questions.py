@@ -17,8 +17,8 @@ from golc.proofs.symbols import MOST_CONCRETE, NotDecidedError, Range
 from golc.situation.branching import Clause, Options
 from golc.situation.compile import Cell, Compiler
 from golc.situation.layout import Layout
-from golc.theory.dependence import fluents_of
 from golc.theory.fitting import size
+from golc.theory.reading import fluents_read
 from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import INT, Interval, Type, Value, show, show_call
@@ -185,7 +185,7 @@ class Prover:
     def _after(self, step: Afterwards, case: Case) -> _After:
         """The situation after an action, as far as the formula speaks of it."""
         args = self._values(step.env, case)
-        fluents = fluents_of(self.theory, step.term)
+        fluents = fluents_read(self.theory, [step.term])
         changes: dict[int, Any] = {}
         for clause in self._clauses_of(step.action):
             if clause.effect.fluent in fluents:

@@ -12,12 +12,12 @@ from contextlib import contextmanager
 from typing import Any, TypeAlias
 
 from golc.diagnostics import NOWHERE
-from golc.situation.compile import Compiler
+from golc.situation.compile import FORMULA, Compiler
 from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
 from golc.theory import errors
-from golc.theory.dependence import fluents_of
 from golc.theory.evaluate import Env
+from golc.theory.reading import fluents_read
 from golc.theory.terms import Binder, DefinedTerm, FluentTerm, StaticTerm, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import Unknown, Value, show, show_call
@@ -36,17 +36,17 @@ class Knowing:
 
     def condition(self, term: Term, depth: int) -> Asked:
         """Whether a formula is known to be true: a function of a state and an environment of ``depth`` variables."""
-        return self.known_true(self.compiler.term(term, depth), (term,))
+        return self.known_true(self.compiler.term(term, depth, FORMULA), (term,))
 
     def refuted(self, term: Term, depth: int) -> Asked:
         """Whether a formula is known to be false, as for ``condition``."""
-        function = self.compiler.term(term, depth)
+        function = self.compiler.term(term, depth, FORMULA)
         return self.known_true(lambda world, env: not function(world, env), (term,))
 
-    def settled(self, term: Term, depth: int) -> Asked:
+    def settled(self, term: Term, depth: int, what: str | None = None) -> Asked:
         """The value of a term, or whether a formula is true; if worlds disagree, the function raises
-        ``UndecidedError``."""
-        return self._settled(self.compiler.term(term, depth), term)
+        ``UndecidedError``. ``what`` as for ``Compiler.term``."""
+        return self._settled(self.compiler.term(term, depth, what), term)
 
     def arguments(self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int) -> Asked:
         """The values of the arguments of something, as for ``settled``."""
@@ -123,12 +123,9 @@ class Knowing:
 
     def sensing(self, term: Term) -> list[str]:
         """The primitive actions that sense something that a term depends on."""
-        fluents = fluents_of(self.theory, term)
-        return [
-            action.name
-            for action in self.theory.actions.values()
-            if any(fluents & fluents_of(self.theory, sensed) for sensed in action.senses)
-        ]
+        fluents = fluents_read(self.theory, [term])
+        actions = self.theory.actions.values()
+        return [action.name for action in actions if fluents & fluents_read(self.theory, action.senses)]
 
     def _listed(self, function: Asked) -> Asked:
         return lambda state, env: tuple(function(state, env))
