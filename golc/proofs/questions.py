@@ -7,7 +7,7 @@ invariants hold, whether or not they can be reached.
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
@@ -127,38 +127,45 @@ class Prover:
     def answer(self, question: Question) -> Witness | Undecided | None:
         """A witness, as small as one that is found early; none if there is provably none."""
         domains = [*self._domains, *(domain(variable.type) for variable in question.variables)]
-        best: Witness | None = None
+        best: Case | None = None
         last = MOST_CASES
+        undecided = None
         try:
-            for number, (_, found) in enumerate(explore(domains, lambda case: self._ask(question, case))):
-                if found is not None and (best is None or len(found.fluents) < len(best.fluents)):
-                    best, last = found, min(last, number + MORE_CASES)
+            for number, (case, found) in enumerate(explore(domains, lambda case: self._ask(question, case))):
+                if found and (best is None or len(case.cells) < len(best.cells)):
+                    best, last = case, min(last, number + MORE_CASES)
                 if number >= last or time.monotonic() > self.deadline:
+                    undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
-            else:
-                return best
         except NotDecidedError as error:
-            return best or Undecided(str(error))
-        return best or Undecided(f"more than {MOST_CASES} cases would have to be told apart")
+            undecided = Undecided(str(error))
+        return undecided if best is None else self._witness(question, domains, best)
 
-    def _ask(self, question: Question, case: Case) -> Witness | None:
+    def _witness(self, question: Question, domains: Sequence[Domain], found: Case) -> Witness:
+        """A case in which what is asked is so, with a value for each integer that has only been narrowed down."""
+        values = found.values()
+        fixed = [(values[slot],) if slot in values else of for slot, of in enumerate(domains)]
+        case = Case(fixed, [])
         error = None
+        try:
+            all(self._succeeds(step, case) for step in question.steps)
+        except ProgramError as raised:
+            error = raised
+        read = sorted(slot for slot in case.cells if slot < self.layout.size)
+        fluents = {show_call(*self.layout.ground_fluents[slot]): case.cells[slot] for slot in read}
+        numbers = range(self.layout.size, len(domains))
+        return Witness(fluents, tuple([values[n] if n in values else _any(domains[n]) for n in numbers]), error)
+
+    def _ask(self, question: Question, case: Case) -> bool:
+        """Whether what is asked is so in a case."""
+        fails = False
         try:
             for step in question.steps:
                 if not self._succeeds(step, case):
-                    return None
-        except ProgramError as found:
-            error = found
-        if (error is not None) is not question.fails:
-            return None
-        read = [slot for slot in case.cells if slot < self.layout.size]
-        if not self._is_assumed(case):
-            return None
-        fluents = {show_call(*self.layout.ground_fluents[slot]): case.value(slot) for slot in sorted(read)}
-        numbers = range(self.layout.size, self.layout.size + len(question.variables))
-        types = [variable.type for variable in question.variables]
-        variables = [case.value(n) if n in case.cells else _any(type_) for n, type_ in zip(numbers, types, strict=True)]
-        return Witness(fluents, tuple(variables), error)
+                    return False
+        except ProgramError:
+            fails = True
+        return fails is question.fails and self._is_assumed(case)
 
     def _succeeds(self, step: Step, case: Case) -> bool:
         match step:
@@ -240,9 +247,9 @@ def domain(type_: Type) -> Domain:
     return type_.values if size(type_) <= MOST_CONCRETE else None
 
 
-def _any(type_: Type) -> Value:
-    """Some value of a type, for a variable that nothing depends on."""
-    match domain(type_):
+def _any(domain: Domain) -> Value:
+    """Some value, for a variable that nothing depends on."""
+    match domain:
         case Range() as range_:
             return range_.nearest_to_zero()
         case None:

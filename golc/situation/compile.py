@@ -189,11 +189,14 @@ class Compiler:
                 constant += stride * place.positions[index][value]
                 continue
             text = self.expression(arg, cells, depth)
-            if not fits(arg.type, type_):
+            if isinstance(type_, Interval):
+                if not fits(arg.type, type_):
+                    failure = guards.argument_failure(arg, place.fluent.name, type_)
+                    text = f"{self.bind('check', guards.check(type_, failure))}({text})"
+                constant -= stride * type_.low
+            elif not fits(arg.type, type_):
                 check = guards.Positions(place.positions[index], arg, place.fluent.name, type_)
                 text = f"{self.bind('position', check)}[{text}]"
-            elif isinstance(type_, Interval):
-                constant -= stride * type_.low
             else:
                 text = f"{self.bind('position', place.positions[index])}[{text}]"
             parts.append(text if stride == 1 else f"{text}*{stride}")
