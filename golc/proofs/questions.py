@@ -6,9 +6,10 @@ invariants hold, whether or not they can be reached.
 
 from __future__ import annotations
 
+import itertools
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
 from golc.diagnostics import ProgramError
@@ -23,7 +24,7 @@ from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import INT, Interval, Type, Value, show, show_call
 
-MOST_CASES = 20_000
+MOST_CASES = 4_000
 """How many cases of one question are gone through."""
 
 MORE_CASES = 500
@@ -139,7 +140,29 @@ class Prover:
                     break
         except NotDecidedError as error:
             undecided = Undecided(str(error))
-        return undecided if best is None else self._witness(question, domains, best)
+        if best is not None:
+            return self._witness(question, domains, best)
+        return undecided and self._solved(question, domains, undecided)
+
+    def _solved(self, question: Question, domains: list[Domain], why: Undecided) -> Witness | Undecided | None:
+        """What a solver answers, if there is one; a witness of its is tried out."""
+        try:
+            from golc.proofs.solver import solve
+        except ImportError:
+            return replace(why, help="install `golc[smt]`, which brings a solver")
+        try:
+            found = solve(self.theory, question)
+        except NotDecidedError as error:
+            return Undecided(f"{why.reason}; {error}")
+        if found is None:
+            return None
+        for (name, args), value in found[0].items():
+            domains[self.layout.places[name].slot(args)] = (value,)
+        domains[self.layout.size :] = [(value,) for value in found[1]]
+        for case, confirmed in itertools.islice(explore(domains, lambda case: self._ask(question, case)), MORE_CASES):
+            if confirmed:
+                return self._witness(question, domains, case)
+        return Undecided(f"{why.reason}; what the solver says is not confirmed")
 
     def _witness(self, question: Question, domains: Sequence[Domain], found: Case) -> Witness:
         """A case in which what is asked is so, with a value for each integer that has only been narrowed down."""
