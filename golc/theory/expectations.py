@@ -58,7 +58,7 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     """A term, if it may be a number; ``what`` says for what one is needed."""
     if may_be(found.type, REAL):
         return found
-    text = '`"{…}{…}"` puts texts together' if found.type == STRING else None
+    text = '`"{…}{…}"` puts texts together' if found.type == STRING and what == "`+`" else None
     mismatch(context, found, "a number", what, text or cure(found, REAL))
     return broken(found.span)
 
@@ -83,6 +83,8 @@ def cure(found: Term, needed: Type) -> str | None:
         return f"write `({found.kind} …) = …`: without parentheses `{found.kind}` takes in everything to its right"
     if needed == BOOL:
         return f"compare it: `{shown(found)} = …`"
+    if have and want and have.kind != want.kind and not have.element.kinds:
+        return f"the empty {want.kind} is `{'{}' if want.kind == 'set' else '[]'}`"
     if have and want and have.kind != want.kind:
         brackets = "{x for x in …}" if want.kind == "set" else "[x for x in …]"
         return f"`{brackets}` makes a {want.kind} of a {have.kind}"

@@ -205,7 +205,7 @@ class Collection(Type):
         return frozenset({self.kind})
 
     def __str__(self) -> str:
-        return f"{self.kind}[{self.element}]"
+        return f"{self.kind}[{self.element}]" if self.element.kinds else f"empty {self.kind}"
 
 
 NONE = Optional(Enumeration(()))

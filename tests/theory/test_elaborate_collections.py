@@ -324,6 +324,6 @@ def test_consts_may_be_replaced_by_values_that_fit(theory: Build, found: Build) 
     assert [constant.value for constant in built.constants.values()] == [frozenset(), 2, 3, "b c"]
     assert built.constants["few"].type == Collection("set", INT)
     assert found(text, {"top": "0.5", "few": "[1]"}) == [
-        "1:1 GL016 `top` is `int` in the file, but `real` on the command line",
         "1:1 GL016 `few` is `set[int]` in the file, but `list[int]` on the command line",
+        "1:1 GL016 `top` is `int` in the file, but `real` on the command line",
     ]
