@@ -237,7 +237,7 @@ def show(value: Value) -> str:
         case int() if value.bit_length() > MOST_BITS:
             return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
         case Fraction():
-            return _decimal(value)
+            return _decimal(value) if value.denominator > 1 else show(value.numerator)
         case frozenset():
             return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
         case tuple():
@@ -292,7 +292,7 @@ def writable(thing: object) -> object:
         case frozenset():
             return [writable(part) for part in sorted(thing, key=_rank)]
         case Fraction():
-            return _number(show(thing))
+            return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
             return show(thing)
         case _:
