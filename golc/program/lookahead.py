@@ -10,7 +10,7 @@ from golc.program.labels import Act, Label
 from golc.program.nodes import Node
 from golc.program.rules import Env, Found, Rule
 from golc.program.walks import Proof, Walk
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.statements import Strategy
 
 
