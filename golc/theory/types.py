@@ -207,7 +207,7 @@ class Collection(Type):
         return frozenset({self.kind})
 
     def __str__(self) -> str:
-        return f"{self.kind}[{self.element}]"
+        return f"{self.kind}[{self.element}]" if self.element.kinds else f"empty {self.kind}"
 
 
 @dataclass(frozen=True)
@@ -250,7 +250,7 @@ def show(value: Value) -> str:
         case Fraction(denominator=1):
             return show(value.numerator)
         case Fraction():
-            return _decimal(value)
+            return _decimal(value) if value.denominator > 1 else show(value.numerator)
         case frozenset():
             return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
         case tuple():
@@ -317,7 +317,7 @@ def writable(thing: object) -> object:
         case frozenset():
             return [writable(part) for part in sorted(thing, key=_rank)]
         case Fraction():
-            return _number(show(thing))
+            return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
             return show(thing)
         case _:
