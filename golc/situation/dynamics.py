@@ -13,13 +13,13 @@ from typing import Any, TypeAlias
 from golc.diagnostics import Span
 from golc.situation.beginning import initial_state
 from golc.situation.branching import Branching
-from golc.situation.compile import Cells, Compiler, fits, variables
+from golc.situation.compile import Cells, Compiler, variables
 from golc.situation.interpret import Interpreter
 from golc.situation.knowing import Knowing, placed
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
-from golc.theory.fitting import describe
+from golc.theory.fitting import describe, includes
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
@@ -267,7 +267,7 @@ class Dynamics:
         slot = self.compiler.slot(place, effect.args, cells)
         assert not isinstance(effect.value, Choice)
         lines = [f"i = {slot}", f"x = {self.compiler.expression(effect.value, cells)}"]
-        if not fits(effect.value.type, place.fluent.type):
+        if not includes(place.fluent.type, effect.value.type):
             values = self.compiler.bind("type", place.fluent.type)
             lines.append(f"if x not in {values}: {self.compiler.bind('outside', self._outside(effect))}(i, x)")
         if not collect:

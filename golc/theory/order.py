@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeAlias, cast
 
-from golc.theory.types import Collection, Enumeration, Optional, Type, Value
+from golc.theory.types import Collection, Enumeration, Interval, Optional, Primitive, Type, Value, rank
 
 Key: TypeAlias = Callable[[Any], Any]
 
@@ -24,8 +24,10 @@ def sort_key(type_: Type) -> Key | None:
             return lambda value: (False,) if value is None else (True, inner(value))
         case Collection(kind=kind, element=element):
             return _collection_key(kind == "set", sort_key(element))
-        case _:
+        case Primitive() | Interval():
             return None
+        case _:
+            return rank
 
 
 def _collection_key(is_set: bool, inner: Key | None) -> Key | None:

@@ -252,7 +252,7 @@ def show(value: Value) -> str:
         case Fraction():
             return _decimal(value) if value.denominator > 1 else show(value.numerator)
         case frozenset():
-            return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
+            return "{" + ", ".join(map(_part, sorted(value, key=rank))) + "}"
         case tuple():
             return "[" + ", ".join(map(_part, value)) + "]"
         case _:
@@ -288,8 +288,8 @@ def _part(value: Value) -> str:
     return show(value)
 
 
-def _rank(value: Value) -> tuple[int, Any]:
-    """What brings the elements of a set into an order where their type is not at hand."""
+def rank(value: Value) -> tuple[int, Any]:
+    """A key for values of any types: what brings the elements of a set into an order where their type says none."""
     match value:
         case None:
             return 0, 0
@@ -298,9 +298,9 @@ def _rank(value: Value) -> tuple[int, Any]:
         case int() | Fraction():
             return 2, value
         case frozenset():
-            return 4, sorted(map(_rank, value))
+            return 4, sorted(map(rank, value))
         case tuple():
-            return 5, tuple(map(_rank, value))
+            return 5, tuple(map(rank, value))
         case _:
             return 3, value
 
@@ -315,7 +315,7 @@ def writable(thing: object) -> object:
         case list() | tuple():
             return [writable(part) for part in thing]
         case frozenset():
-            return [writable(part) for part in sorted(thing, key=_rank)]
+            return [writable(part) for part in sorted(thing, key=rank)]
         case Fraction():
             return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
