@@ -13,7 +13,7 @@ from golc.situation.knowing import who_senses
 from golc.situation.worlds import State
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Operation, Operator, Term
-from golc.theory.types import Value, show, show_call
+from golc.theory.types import Value, show
 
 if TYPE_CHECKING:
     from golc.program.rules import Rule
@@ -133,7 +133,7 @@ def impossible(dynamics: Dynamics, state: State, action: str, args: tuple[Value,
 
 
 def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args: tuple[Value, ...]) -> Blocked:
-    call = show_call(action, args)
+    call = dynamics.call(action, args)
     for term in dynamics.theory.actions[action].preconditions:
         for part in _conjuncts(term):
             verdict = dynamics.knowing.verdict(part, state, args)

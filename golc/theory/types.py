@@ -217,6 +217,23 @@ class Unknown:
     values: tuple[Value, ...]
 
 
+class InOrder(frozenset[Value]):
+    """A set to be written, with its elements in the order in which they are."""
+
+    order: tuple[Value, ...] = ()
+
+    @classmethod
+    def of(cls, order: Iterable[Value]) -> InOrder:
+        """The set of some elements."""
+        made = cls(order := tuple(order))
+        made.order = order
+        return made
+
+
+class Quoted(str):
+    """A string to be written in quotes."""
+
+
 NONE = Optional(Enumeration(()))
 """The type of ``none`` alone."""
 
@@ -252,7 +269,7 @@ def show(value: Value) -> str:
         case Fraction():
             return _decimal(value) if value.denominator > 1 else show(value.numerator)
         case frozenset():
-            return "{" + ", ".join(map(_part, sorted(value, key=rank))) + "}"
+            return "{" + ", ".join(map(_part, _in_order(value))) + "}"
         case tuple():
             return "[" + ", ".join(map(_part, value)) + "]"
         case _:
@@ -282,10 +299,14 @@ def _decimal(value: Fraction) -> str:
 
 
 def _part(value: Value) -> str:
-    """A value beside others: there a string that is no single word stands in quotes."""
-    if isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value):
+    """A value beside others: there a string that is no single word, or known to be no symbol, stands in quotes."""
+    if isinstance(value, Quoted) or (isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value)):
         return '"' + value.translate(ESCAPED) + '"'
     return show(value)
+
+
+def _in_order(value: frozenset[Value]) -> Iterable[Value]:
+    return value.order if isinstance(value, InOrder) else sorted(value, key=rank)
 
 
 def rank(value: Value) -> tuple[int, Any]:
@@ -315,7 +336,7 @@ def writable(thing: object) -> object:
         case list() | tuple():
             return [writable(part) for part in thing]
         case frozenset():
-            return [writable(part) for part in sorted(thing, key=rank)]
+            return [writable(part) for part in _in_order(thing)]
         case Fraction():
             return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
