@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import ProgramError, Span
-from golc.program.labels import Act
 from golc.situation.dynamics import Dynamics
 from golc.situation.layout import State
 from golc.theory.recursion import EVALUATION, deep_recursion
@@ -15,15 +14,14 @@ from golc.theory.terms import DefinedTerm, FluentTerm, Operation, Operator, Stat
 from golc.theory.types import Value, show, show_call
 
 if TYPE_CHECKING:
-    from golc.program.rules import Rule
-    from golc.program.step import NoPath, Path
+    from golc.program.paths import NoPath, Path
 
 
 @dataclass(frozen=True)
 class Blamed:
-    """A rule that had no transition, the reason's name, and what belongs to it."""
+    """The place of a rule that had no transition, the reason's name, and what belongs to it."""
 
-    rule: Rule
+    span: Span
     reason: str
     details: tuple[Any, ...]
 
@@ -51,7 +49,7 @@ def explain(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
 
 
 def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
-    span, details = blamed.rule.span, blamed.details
+    span, details = blamed.span, blamed.details
     match blamed.reason:
         case "false":
             term, env = details
@@ -65,7 +63,14 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
         case "no value":
             return Blocked(span, "no value can be picked")
         case "waits":
-            return Blocked(span, "look-ahead cannot wait: nothing happens while it thinks")
+            return Blocked(span, "look-ahead cannot wait: nothing happens" + _unexpected(dynamics, state))
+        case "waits for":
+            term, env = details
+            text = f"`{_text(term)}` is false" + _unexpected(dynamics, state)
+            return Blocked(span, text, _values(dynamics, term, state, env))
+        case "pruned":
+            prune, call = details
+            return Blocked(span, f"`{call}` is pruned by `{prune}`")
         case "aborts":
             return Blocked(span, "the program would end itself as failed here")
         case "lost":
@@ -126,9 +131,21 @@ def _how_far(none: NoPath) -> str:
     """How far a search came that found no way, and what stopped it."""
     text = f"; {none.limit}" if none.limit else ""
     if none.reasons:
-        way = f"the longest way was {', '.join(map(str, none.deepest))}; there" if none.deepest else "stuck at once:"
+        way = f"the longest way was {', '.join(none.deepest)}; there" if none.deepest else "stuck at once:"
         text += f"; {way} {' and '.join(map(valued, none.reasons))}"
     return text
+
+
+def _unexpected(dynamics: Dynamics, state: State) -> str:
+    """Why none of the expected exogenous actions happens, if there are any."""
+    expected = [action for action in dynamics.theory.actions.values() if action.expected]
+    reasons = [
+        f"no `{action.name}` is possible"
+        if action.parameters
+        else valued(_impossible(dynamics, state, action.span, action.name, ()))
+        for action in expected
+    ]
+    return f", and nothing is expected: {'; '.join(reasons)}" if reasons else ""
 
 
 def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath) -> Blocked:
@@ -141,7 +158,7 @@ def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath
         text += f"; it counted on {were}"
     text += _how_far(none)
     at = path.labels[index].span if index < len(path.labels) else path.labels[-1].span
-    return Blocked(at, text, changed, sum(isinstance(label, Act) for label in path.labels[:index]))
+    return Blocked(at, text, changed, path.actions(index))
 
 
 def _conjuncts(term: Term) -> Iterator[Term]:
