@@ -12,7 +12,7 @@ from golc.planning.limits import Budget
 from golc.program.labels import Act, Transition
 from golc.program.nodes import Node
 from golc.program.step import Machine
-from golc.situation.layout import State
+from golc.situation.worlds import State
 
 Pair: TypeAlias = tuple[Node, State]
 

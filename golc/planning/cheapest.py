@@ -9,7 +9,7 @@ from golc.program.labels import Act
 from golc.program.nodes import Node
 from golc.program.step import Machine, Path
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 
 
 def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:

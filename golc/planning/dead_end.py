@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from golc.program.labels import Act, Label
 from golc.program.nodes import Node
-from golc.situation.layout import State
+from golc.situation.worlds import State
 
 
 @dataclass

@@ -15,7 +15,7 @@ from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Act, Label, Transition
 from golc.program.nodes import Node
 from golc.program.step import Machine, Path
-from golc.situation.layout import State
+from golc.situation.worlds import State
 
 
 @dataclass(slots=True)

@@ -13,7 +13,7 @@ from golc.planning.planner import Outcome, Plan
 from golc.program.blame import false_parts, impossible
 from golc.program.labels import Act
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.fitting import size
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.theory import Action, BasicActionTheory
@@ -71,7 +71,7 @@ class GoalPlanning:
         _check_finite(actions)
         self._ground = [ground for action in actions for ground in self._instances(action)]
         with deep_recursion():
-            self._holds: Callable[..., bool] = self._dynamics.compiler.term(self._goal, 0)
+            self._holds: Callable[..., bool] = self._dynamics.knowing.condition(self._goal, 0)
 
     def __iter__(self) -> Iterator[Plan]:
         outcome = self.outcome

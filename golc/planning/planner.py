@@ -18,7 +18,7 @@ from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.step import Machine, NoPath, Path
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.recursion import deep_recursion
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory

@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import ProgramError, Span
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.knowing import who_senses
+from golc.situation.worlds import State
 from golc.theory.recursion import EVALUATION, deep_recursion
-from golc.theory.terms import DefinedTerm, FluentTerm, Operation, Operator, StaticTerm, Term, Variable, subterms
+from golc.theory.terms import Operation, Operator, Term
 from golc.theory.types import Value, show, show_call
 
 if TYPE_CHECKING:
@@ -52,14 +53,18 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
     span, details = blamed.span, blamed.details
     match blamed.reason:
         case "false":
-            term, env = details
-            return Blocked(span, f"`{_text(term)}` is false", _values(dynamics, term, state, env))
+            return _not_true(dynamics, state, span, *details)
         case "impossible":
             return _impossible(dynamics, state, span, *details)
         case "no interrupt":
             handler, env = details
-            text = f"no interrupt here: `{_text(handler.term)}` does not hold"
+            text = f"no interrupt here: `{_text(handler.term)}` is not known to hold"
+            if not dynamics.compiler.uncertain:
+                text = f"no interrupt here: `{_text(handler.term)}` does not hold"
             return Blocked(handler.span, text, _values(dynamics, handler.term, state, env))
+        case "undecided":
+            (error,) = details
+            return Blocked(error.diagnostic.span, error.diagnostic.message)
         case "no value":
             return Blocked(span, "no value can be picked")
         case "waits":
@@ -95,11 +100,12 @@ def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked
     with deep_recursion(EVALUATION):
         for part in _conjuncts(formula):
             try:
-                holds = dynamics.interpreter.holds(part, state, ())
+                holds = dynamics.knowing.verdict(part, state, ())
             except ProgramError:
                 continue
             if not holds:
-                found.append(Blocked(part.span, f"`{_text(part)}` is false", _values_if_any(dynamics, part, state)))
+                text = f"`{_text(part)}` {_is(dynamics, part, holds)}"
+                found.append(Blocked(part.span, text, _values_if_any(dynamics, part, state)))
     return found
 
 
@@ -109,6 +115,20 @@ def _values_if_any(dynamics: Dynamics, term: Term, state: State) -> tuple[tuple[
         return _values(dynamics, term, state, ())
     except ProgramError:
         return ()
+
+
+def _not_true(dynamics: Dynamics, state: State, span: Span, term: Term, env: tuple[Value, ...]) -> Blocked:
+    """A formula that is not known to be true, and whether it is false."""
+    text = f"`{_text(term)}` {_is(dynamics, term, dynamics.knowing.verdict(term, state, env))}"
+    return Blocked(span, text, _values(dynamics, term, state, env))
+
+
+def _is(dynamics: Dynamics, term: Term, verdict: bool | None) -> str:
+    """What is the matter with a formula that is not known to be true."""
+    if verdict is not None:
+        return "is false"
+    senses = who_senses(dynamics.knowing.sensing(term))
+    return "is not known" + (f" ({senses})" if senses else ", and no action senses it")
 
 
 def impossible(dynamics: Dynamics, state: State, action: str, args: tuple[Value, ...]) -> Blocked:
@@ -121,8 +141,9 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
     call = show_call(action, args)
     for term in dynamics.theory.actions[action].preconditions:
         for part in _conjuncts(term):
-            if not dynamics.interpreter.holds(part, state, args):
-                text = f"`{call}` is not possible: `{_text(part)}` is false"
+            verdict = dynamics.knowing.verdict(part, state, args)
+            if not verdict:
+                text = f"`{call}` is not possible: `{_text(part)}` {_is(dynamics, part, verdict)}"
                 return Blocked(span, text, _values(dynamics, part, state, args))
     return Blocked(span, f"`{call}` is not possible")
 
@@ -176,17 +197,4 @@ def _text(term: Term) -> str:
 
 
 def _values(dynamics: Dynamics, term: Term, state: State, env: tuple[Value, ...]) -> tuple[tuple[str, Value], ...]:
-    """The ground fluents, definitions and variables that a term speaks of, each once, with their values."""
-    values: dict[str, Value] = {}
-    for part in subterms(term):
-        if any(isinstance(inner, Variable) and inner.level >= len(env) for inner in subterms(part)):
-            continue
-        match part:
-            case Variable(name=name, level=level):
-                values[name] = env[level]
-            case FluentTerm(fluent=name, args=args) | DefinedTerm(definition=name, args=args):
-                of = tuple(dynamics.interpreter.evaluate(arg, state, env) for arg in args)
-                values[show_call(name, of)] = dynamics.interpreter.evaluate(part, state, env)
-            case StaticTerm():
-                continue
-    return tuple(values.items())
+    return tuple(dynamics.knowing.spoken_of(term, state, env).items())

@@ -10,7 +10,6 @@ from golc.program import concurrency, iteration, lookahead, rules, timing
 from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.rules import Rule
-from golc.situation.compile import environment
 from golc.situation.dynamics import Dynamics
 from golc.theory import statements as st
 from golc.theory.terms import Binder, Term, Variable, subterms
@@ -27,7 +26,7 @@ class Builder:
     def __init__(self, dynamics: Dynamics, program: Program) -> None:
         self.dynamics = dynamics
         self.theory = dynamics.theory
-        self.compiler = dynamics.compiler
+        self.knowing = dynamics.knowing
         self.program = program
         self._bodies: dict[str, Rule] = {}
         self._calls: list[rules.Invoke] = []
@@ -75,7 +74,7 @@ class Builder:
             case st.Invoke(procedure=name):
                 return self._invoke(statement, self.theory.procedures[name], depth)
             case st.Test(condition=condition):
-                return rules.Test(span, self._term(condition, depth), condition)
+                return rules.Test(span, self._condition(condition, depth), condition)
             case st.Sequence(parts=parts):
                 return self._sequence(parts, depth)
             case st.If(condition=condition, then=then, otherwise=otherwise):
@@ -103,13 +102,14 @@ class Builder:
             case st.Interrupts(handlers=handlers):
                 return concurrency.Interrupts(span, tuple(self._handler(handler, depth) for handler in handlers))
             case st.Guard(condition=condition, body=body):
-                return concurrency.Guard(span, self._term(condition, depth), condition, self._rule(body, depth))
+                holds, over = self._condition(condition, depth), self.knowing.refuted(condition, depth)
+                return concurrency.Guard(span, holds, over, condition, self._rule(body, depth))
             case st.Search(body=body):
                 return lookahead.Search(span, self._request(statement, depth), self._rule(body, depth))
             case st.Wait():
                 return rules.WaitRule(span)
             case st.WaitUntil(condition=condition):
-                return rules.WaitUntil(span, self._term(condition, depth), condition)
+                return rules.WaitUntil(span, self._condition(condition, depth), condition)
             case st.WaitTime(seconds=seconds):
                 return timing.WaitTime(span, self._seconds(seconds, depth))
             case st.Within(seconds=seconds, body=body, otherwise=otherwise):
@@ -180,27 +180,33 @@ class Builder:
 
     def _term(self, term: Term, depth: int) -> Callable[..., Any]:
         self._reads(term)
-        return self.compiler.term(term, depth)
+        return self.knowing.settled(term, depth)
+
+    def _condition(self, term: Term, depth: int) -> Callable[..., Any]:
+        self._reads(term)
+        return self.knowing.condition(term, depth)
 
     def _environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
         if where is not None:
             self._reads(where)
-        return self.compiler.environments(binders, where, depth)
+        return self.knowing.environments(binders, where, depth)
 
     def _args(
         self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int
     ) -> Callable[..., tuple[Value, ...]]:
         for arg in args:
             self._reads(arg)
-        texts = self.compiler.arguments(what, parameters, args, environment(depth))
-        return self.compiler.function("s, e", [f"return ({''.join(f'{text}, ' for text in texts)})"])
+        return self.knowing.arguments(what, parameters, args, depth)
 
     def _reads(self, term: Term) -> None:
         self._read |= {part.level for part in subterms(term) if isinstance(part, Variable)}
 
     def _message(self, message: st.Message, depth: int) -> Callable[..., str]:
         """A function of a state and an environment that makes the text of a message."""
-        parts = [part if isinstance(part, str) else self._term(part, depth) for part in message.parts]
+        for part in message.parts:
+            if not isinstance(part, str):
+                self._reads(part)
+        parts = [part if isinstance(part, str) else self.knowing.shown(part, depth) for part in message.parts]
 
         def text(state: Any, env: Any) -> str:
             return "".join(part if isinstance(part, str) else show(part(state, env)) for part in parts)

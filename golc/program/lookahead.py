@@ -9,7 +9,7 @@ from golc.diagnostics import Span
 from golc.program.nodes import Node
 from golc.program.rules import Env, Found, Rule
 from golc.program.walks import Proof, Walk
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.statements import Strategy
 
 

@@ -21,7 +21,7 @@ from golc.program.frames import Then
 from golc.program.labels import Abort, Act, Label, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.program.walks import Proof, Walk
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.terms import Term
 from golc.theory.types import Value
 

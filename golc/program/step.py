@@ -15,7 +15,7 @@ from golc.program.program import Program
 from golc.program.rules import Rule
 from golc.program.walks import NONE_ENTERED, Entered, Proof, Walk
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 
 if TYPE_CHECKING:
     from golc.program.ahead import Ahead

@@ -14,10 +14,13 @@ from typing import Any, NamedTuple
 
 from golc.situation import guards
 from golc.situation.layout import Layout, Place
+from golc.situation.worlds import ASK
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
     Binder,
+    Choice,
     DefinedTerm,
+    Epistemic,
     FluentTerm,
     Literal,
     Membership,
@@ -78,6 +81,7 @@ class Compiler:
         self.theory = theory
         self.layout = layout
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
+        self.uncertain = leaves_open(theory)
         self._made: dict[tuple[str, str], str] = {}
         self._positions: dict[int, str] = {}
 
@@ -89,6 +93,13 @@ class Compiler:
     def term(self, term: Term, depth: int) -> Callable[..., Any]:
         """A function of a state and an environment of ``depth`` variables that evaluates a term."""
         return self.function("s, e", [f"return {self.expression(term, environment(depth))}"])
+
+    def argument_values(
+        self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int
+    ) -> Callable[..., Any]:
+        """A function of a state and an environment that evaluates the arguments of something."""
+        texts = self.arguments(what, parameters, args, environment(depth))
+        return self.function("s, e", [f"return ({''.join(f'{text}, ' for text in texts)})"])
 
     def environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
         """A function of a state and an environment that yields the longer ones which binders and ``where`` make."""
@@ -143,6 +154,9 @@ class Compiler:
                 return self._quantified(term, cells, depth + 1)
             case Operation():
                 return self._operation(term, cells, depth + 1)
+            case Epistemic(kind=kind, body=body):
+                function, names = self._function_of(body, cells)
+                return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
             case _:
                 raise AssertionError(term)
 
@@ -214,9 +228,13 @@ class Compiler:
         return name
 
     def _hoisted(self, term: Term, cells: Cells) -> str:
+        function, names = self._function_of(term, cells)
+        return f"{function}({', '.join(names)})"
+
+    def _function_of(self, term: Term, cells: Cells) -> tuple[str, list[str]]:
+        """The name of a function that evaluates a term, and the names of what it is to be given."""
         names = ["s", *dict.fromkeys(cell.text.partition("[")[0] for cell in cells if not cell.known)]
-        parameters = ", ".join(names)
-        return f"{self._define(parameters, [f'return {self.expression(term, cells)}'])}({parameters})"
+        return self._define(", ".join(names), [f"return {self.expression(term, cells)}"]), names
 
     def _constant(self, value: Value) -> str:
         return repr(value) if value is None or isinstance(value, int | str) else self.bind("constant", value)
@@ -352,3 +370,11 @@ def _known(term: Term, cells: Cells) -> tuple[bool, Value]:
             return cells[level].known, cells[level].value
         case _:
             return False, None
+
+
+def leaves_open(theory: BasicActionTheory) -> bool:
+    """Whether there may ever be several possible worlds."""
+    effects = (effect for action in theory.actions.values() for effect in action.effects)
+    return any(isinstance(fluent.initial, Choice) for fluent in theory.fluents.values()) or any(
+        isinstance(effect.value, Choice) for effect in effects
+    )

@@ -10,11 +10,13 @@ from collections.abc import Iterator, Mapping
 from typing import cast
 
 from golc.situation import errors
-from golc.situation.layout import Layout, State
+from golc.situation.layout import Layout, World
+from golc.situation.worlds import ASK, Readable
 from golc.theory.terms import (
     Binder,
     Choice,
     DefinedTerm,
+    Epistemic,
     FluentTerm,
     Literal,
     Membership,
@@ -43,23 +45,11 @@ class Interpreter:
         self.theory = theory
         self.layout = layout or Layout(theory)
 
-    def initial(self) -> State:
-        """The initial state."""
-        values: list[Value] = []
-        for name, args in self.layout.ground_fluents:
-            fluent = self.theory.fluents[name]
-            assert not isinstance(fluent.initial, Choice)
-            value = self.evaluate(fluent.initial, (), args)
-            if value not in fluent.type:
-                raise errors.value_outside(fluent.initial.span, show_call(name, args), value, fluent.type)
-            values.append(value)
-        return tuple(values)
-
-    def holds(self, formula: Term, state: State, env: Env) -> bool:
+    def holds(self, formula: Term, state: Readable, env: Env) -> bool:
         """Whether a formula is true."""
         return bool(self.evaluate(formula, state, env))
 
-    def evaluate(self, term: Term, state: State, env: Env) -> Value:
+    def evaluate(self, term: Term, state: Readable, env: Env) -> Value:
         """The value of a term; ``env`` has a value for every variable in scope."""
         match term:
             case Literal(value=value):
@@ -84,23 +74,25 @@ class Interpreter:
                 return self._quantified(term, state, env)
             case Operation():
                 return self._operation(term, state, env)
+            case Epistemic(kind=kind, body=body):
+                return ASK[kind](lambda world: self.evaluate(body, world, env), state)
             case _:
                 raise AssertionError(term)
 
-    def possible(self, action: Action, state: State, args: Env) -> bool:
+    def possible(self, action: Action, state: Readable, args: Env) -> bool:
         """Whether the action's preconditions hold."""
         return all(self.holds(condition, state, args) for condition in action.preconditions)
 
-    def progress(self, action: Action, state: State, args: Env) -> State:
+    def progress(self, action: Action, state: Readable, args: Env) -> World:
         """The state after a ground action: all its effects at once, everything else unchanged."""
         changes: dict[int, Value] = {}
         for effect in action.effects:
             for env in self.bindings(effect.binders, effect.where, state, args):
                 if effect.condition is None or self.holds(effect.condition, state, env):
                     self._apply(effect, state, env, changes)
-        return tuple(changes.get(slot, value) for slot, value in enumerate(state))
+        return tuple([changes.get(slot, state[slot]) for slot in range(self.layout.size)])
 
-    def bindings(self, binders: tuple[Binder, ...], where: Term | None, state: State, env: Env) -> Iterator[Env]:
+    def bindings(self, binders: tuple[Binder, ...], where: Term | None, state: Readable, env: Env) -> Iterator[Env]:
         """The environments that the binders make, in order, as far as ``where`` holds."""
         if not binders:
             if where is None or self.holds(where, state, env):
@@ -109,7 +101,7 @@ class Interpreter:
         for value in binders[0].values:
             yield from self.bindings(binders[1:], where, state, (*env, value))
 
-    def _apply(self, effect: Effect, state: State, env: Env, changes: dict[int, Value]) -> None:
+    def _apply(self, effect: Effect, state: Readable, env: Env, changes: dict[int, Value]) -> None:
         fluent = self.theory.fluents[effect.fluent]
         args = self._arguments(fluent.name, fluent.parameters, effect.args, state, env)
         slot = self.layout.places[fluent.name].slot(args)
@@ -121,7 +113,7 @@ class Interpreter:
             raise errors.conflicting_effects(effect.span, show_call(fluent.name, args), changes[slot], value)
 
     def _arguments(
-        self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], state: State, env: Env
+        self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], state: Readable, env: Env
     ) -> Env:
         values = []
         for parameter, arg in zip(parameters, args, strict=True):
@@ -131,7 +123,7 @@ class Interpreter:
             values.append(value)
         return tuple(values)
 
-    def _static(self, term: StaticTerm, state: State, env: Env) -> Value:
+    def _static(self, term: StaticTerm, state: Readable, env: Env) -> Value:
         static = self.theory.statics[term.static]
         args = self._arguments(static.name, static.parameters, term.args, state, env)
         if isinstance(static.body, Mapping):
@@ -144,7 +136,7 @@ class Interpreter:
             raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
         return value
 
-    def _quantified(self, term: Quantified, state: State, env: Env) -> Value:
+    def _quantified(self, term: Quantified, state: Readable, env: Env) -> Value:
         values = (
             self.evaluate(term.body, state, inner) for inner in self.bindings(term.binders, term.where, state, env)
         )
@@ -161,7 +153,7 @@ class Interpreter:
                     raise errors.empty_extremum(term.span, kind)
                 return min(numbers) if kind == "min" else max(numbers)
 
-    def _operation(self, term: Operation, state: State, env: Env) -> Value:
+    def _operation(self, term: Operation, state: Readable, env: Env) -> Value:
         args = term.args
         match term.op:
             case Operator.AND:
@@ -184,7 +176,7 @@ class Interpreter:
             case _:
                 return self._arithmetic(term, [self._number(arg, state, env) for arg in args])
 
-    def _ordered(self, term: Operation, state: State, env: Env) -> bool:
+    def _ordered(self, term: Operation, state: Readable, env: Env) -> bool:
         if term.order is None:
             numbers = [self._number(arg, state, env) for arg in term.args]
         else:
@@ -219,10 +211,10 @@ class Interpreter:
             raise errors.division_by_zero(term.span)
         return numbers[0] // numbers[1] if term.op is Operator.DIVIDE else numbers[0] % numbers[1]
 
-    def _number(self, term: Term, state: State, env: Env) -> int:
+    def _number(self, term: Term, state: Readable, env: Env) -> int:
         return cast(int, self._some(term, state, env))
 
-    def _some(self, term: Term, state: State, env: Env) -> Value:
+    def _some(self, term: Term, state: Readable, env: Env) -> Value:
         value = self.evaluate(term, state, env)
         if value is None:
             raise errors.nothing(term.span, "an operand")

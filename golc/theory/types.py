@@ -206,6 +206,13 @@ class Collection(Type):
         return f"{self.kind}[{self.element}]"
 
 
+@dataclass(frozen=True)
+class Unknown:
+    """What is shown in place of a value that the agent does not know: the possible ones."""
+
+    values: tuple[Value, ...]
+
+
 NONE = Optional(Enumeration(()))
 """The type of ``none`` alone."""
 
@@ -219,6 +226,8 @@ def show(value: Value) -> str:
     match value:
         case None:
             return "none"
+        case Unknown(values=values):
+            return _alternatives([show(each) for each in values[:MOST_ALTERNATIVES]], len(values))
         case bool():
             return "true" if value else "false"
         case int() if value.bit_length() > MOST_BITS:
@@ -227,9 +236,21 @@ def show(value: Value) -> str:
             return str(value)
 
 
+MOST_ALTERNATIVES = 5
+"""How many possible values are named for one that is not known."""
+
+
+def _alternatives(named: list[str], count: int) -> str:
+    if count > len(named):
+        return f"{', '.join(named)}, … ({count} possible values)"
+    return " or ".join(filter(None, [", ".join(named[:-1]), named[-1]]))
+
+
 def writable(thing: object) -> object:
     """A structure of values for JSON, in which integers that Python refuses to write are the texts of ``show``."""
     match thing:
+        case Unknown(values=values):
+            return {"one of": writable(values)}
         case Mapping():
             return {name: writable(part) for name, part in thing.items()}
         case list() | tuple():

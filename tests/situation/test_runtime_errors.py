@@ -53,7 +53,7 @@ def theory_of(text: str) -> BasicActionTheory:
 def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: str, place: str, message: str) -> None:
     theory = theory_of(f"{DOMAIN}action a:\n    causes {effect}\n")
     dynamics = Dynamics(theory)
-    state = dynamics.initial()
+    state = dynamics.realize(dynamics.initial())
     ways: list[Callable[[], object]] = [
         lambda: dynamics.progress(state, "a", ()),
         lambda: dynamics.interpreter.progress(theory.actions["a"], state, ()),
