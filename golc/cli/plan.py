@@ -17,7 +17,8 @@ from golc.cli.common import Console, Quantity, console_options, constants_option
 if TYPE_CHECKING:
     from golc.planning.goals import GoalPlanning
     from golc.planning.limits import Limits
-    from golc.planning.planner import Outcome, Plan, Planning
+    from golc.planning.planner import Planning
+    from golc.planning.plans import Outcome, Plan, Step
 
 DONE, NO_PLAN, GAVE_UP = 0, 1, 3
 EVERY = 10**12
@@ -177,8 +178,8 @@ class _Text:
         self.cost = plan.cost
         if self._numbered:
             self._write(f"# plan {self._count}: {_actions(len(plan.actions))}")
-        for action in plan.actions:
-            self._write(str(action))
+        for step in plan.steps:
+            self._write(str(step))
 
     def close(self, outcome: Outcome) -> None:
         """Nothing more to say: a failure is told on stderr."""
@@ -197,7 +198,7 @@ class _Json:
 
     def add(self, plan: Plan) -> None:
         self.cost = plan.cost
-        self._plans.append([{"action": action.action, "args": action.args} for action in plan.actions])
+        self._plans.append([_as_object(step) for step in plan.steps])
 
     def close(self, outcome: Outcome) -> None:
         """Write the object."""
@@ -209,18 +210,25 @@ class _Json:
             "gave_up": outcome.gave_up,
             "plans": writable(self._plans),
             "cost": writable(self.cost),
-            "deepest": [str(action) for action in outcome.stuck],
+            "deepest": list(outcome.stuck),
             "failed": [str(reason) for reason in outcome.reasons],
             "expanded": outcome.expanded,
         }
         self._write(json.dumps(document, indent=2))
 
 
+def _as_object(step: Step) -> dict[str, Any]:
+    from golc.program.labels import Act
+
+    kind = "action" if isinstance(step, Act) else "expected"
+    return {kind: step.action, "args": step.args}
+
+
 def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: int | None) -> None:
     if not outcome.plans:
         verdict = outcome.gave_up or f"proven: {outcome.proof}"
         console.err(f"no plan for `{program}`: {verdict}")
-        way = ", ".join(map(str, outcome.stuck)) or "no action at all"
+        way = ", ".join(outcome.stuck) or "no action at all"
         if outcome.reasons:
             console.err(f"the longest way was: {way}; there")
         for reason in outcome.reasons:

@@ -9,15 +9,15 @@ from dataclasses import dataclass
 
 from golc.diagnostics import Code, Diagnostic, LimitError, UserError
 from golc.planning.limits import Budget, Limits
-from golc.planning.planner import Outcome, Plan
-from golc.program.blame import false_parts, impossible
+from golc.planning.plans import Outcome, Plan
+from golc.program.blame import Blocked, false_parts, impossible, pruned
 from golc.program.labels import Act
+from golc.program.prunes import Prunes
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
 from golc.theory.fitting import size
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.theory import Action, BasicActionTheory
-from golc.theory.types import Value
 
 MOST_INSTANCES = 100_000
 """How many ground actions of one action are tried in each state."""
@@ -67,6 +67,7 @@ class GoalPlanning:
         self._goal = theory.definitions[goal].body
         self._budget = Budget(limits)
         self._deepest: _Reached | None = None
+        self._prunes = Prunes(self._dynamics)
         actions = [action for action in theory.actions.values() if not action.exogenous]
         _check_finite(actions)
         self._ground = [ground for action in actions for ground in self._instances(action)]
@@ -118,23 +119,28 @@ class GoalPlanning:
             label = ground.label
             if ground.possible(state, *label.args):
                 after = self._dynamics.progress(state, label.action, label.args)
-                yield _Reached(after, label, reached, reached.depth + 1)
+                if self._prunes.hit(state, label.action, label.args, after) is None:
+                    yield _Reached(after, label, reached, reached.depth + 1)
 
     def _explain(self) -> None:
         """Where the search came last, what is false of the goal there, and what is impossible if everything is."""
         deepest = self._deepest
         if deepest is None:
             return
-        self.outcome.stuck = deepest.actions()
+        self.outcome.stuck = tuple(map(str, deepest.actions()))
         self.outcome.reasons = false_parts(self._dynamics, deepest.state, self._goal)
-        blocked: list[tuple[str, tuple[Value, ...]]] = [
-            (ground.label.action, ground.label.args)
-            for ground in self._ground
-            if not ground.possible(deepest.state, *ground.label.args)
-        ]
-        if len(blocked) == len(self._ground):
-            first = blocked[:MOST_REASONS]
-            self.outcome.reasons += [impossible(self._dynamics, deepest.state, *call) for call in first]
+        if next(self._successors(deepest), None) is None:
+            self.outcome.reasons += [self._why_not(deepest.state, ground) for ground in self._ground[:MOST_REASONS]]
+
+    def _why_not(self, state: State, ground: _Ground) -> Blocked:
+        """Why look-ahead does not do an action in a state."""
+        label = ground.label
+        if not ground.possible(state, *label.args):
+            return impossible(self._dynamics, state, label.action, label.args)
+        after = self._dynamics.progress(state, label.action, label.args)
+        prune = self._prunes.hit(state, label.action, label.args, after)
+        assert prune is not None
+        return pruned(label.span, prune, label)
 
 
 def _check_finite(actions: list[Action]) -> None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import ProgramError, Span
+from golc.program.labels import Act, Expect
 from golc.situation.dynamics import Dynamics
 from golc.situation.knowing import who_senses
 from golc.situation.worlds import State
@@ -68,14 +69,14 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
         case "no value":
             return Blocked(span, "no value can be picked")
         case "waits":
-            return Blocked(span, "look-ahead cannot wait: nothing happens" + _unexpected(dynamics, state))
+            return Blocked(
+                span, "look-ahead cannot wait: nothing happens while it thinks" + _unexpected(dynamics, state)
+            )
         case "waits for":
-            term, env = details
-            text = f"`{_text(term)}` is false" + _unexpected(dynamics, state)
-            return Blocked(span, text, _values(dynamics, term, state, env))
+            blocked = _not_true(dynamics, state, span, *details)
+            return replace(blocked, text=blocked.text + _unexpected(dynamics, state))
         case "pruned":
-            prune, call = details
-            return Blocked(span, f"`{call}` is pruned by `{prune}`")
+            return pruned(span, *details)
         case "aborts":
             return Blocked(span, "the program would end itself as failed here")
         case "lost":
@@ -146,6 +147,12 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
                 text = f"`{call}` is not possible: `{_text(part)}` {_is(dynamics, part, verdict)}"
                 return Blocked(span, text, _values(dynamics, part, state, args))
     return Blocked(span, f"`{call}` is not possible")
+
+
+def pruned(span: Span, prune: str, label: Act | Expect, results: tuple[Value, ...] = ()) -> Blocked:
+    """An action is possible and leads, where it has these results, to a situation that look-ahead does not enter."""
+    answer = f" where it answers {', '.join(map(show, results))}" if results else ""
+    return Blocked(span, f"`{show_call(label.action, label.args)}` is pruned by `{prune}`{answer}")
 
 
 def _how_far(none: NoPath) -> str:

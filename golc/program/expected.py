@@ -6,7 +6,7 @@ import itertools
 from typing import NamedTuple
 
 from golc.situation.dynamics import Args, Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 
 
 class Event(NamedTuple):

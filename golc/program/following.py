@@ -1,18 +1,20 @@
-"""What ``search`` does online: it takes the first step of a way that look-ahead has found, and then follows that way."""
+"""What ``search`` does online: it takes the first step of a way that look-ahead has found, then follows that way."""
 
 from __future__ import annotations
 
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
-from golc.program.ahead import Ahead, Successor
 from golc.program.labels import Clock, Expect, Foreseen, Label, Wait
 from golc.program.lookahead import Request
 from golc.program.nodes import Node
 from golc.program.paths import NoPath, Path, Planner, Run, joined
 from golc.program.rules import Found, Rule
-from golc.program.step import Machine
 from golc.situation.dynamics import Outcome
-from golc.situation.layout import State
+from golc.situation.worlds import State
+
+if TYPE_CHECKING:
+    from golc.program.ahead import Ahead, Fork
+    from golc.program.step import Machine
 
 _Place: TypeAlias = tuple[Path, int, State]
 """A place on a way, with the state that it is reached in."""
@@ -79,13 +81,11 @@ class Searches:
         states = [state]
         outcomes = [Outcome((), state)]
         for number in range(index, len(path.labels)):
-            if len(outcomes) > 1:
-                return None
-            taken = self._taken(path, number, outcomes[0].state)
+            taken = self._taken(path, number, states[-1]) if len(outcomes) == 1 else None
             if taken is None:
                 return None
             labels.append(taken.label)
-            outcomes = self._ahead.outcomes(taken)
+            outcomes = taken.outcomes
             states.append(outcomes[0].state if len(outcomes) == 1 else taken.state)
         run = Path(path.programs[index:], tuple(labels), tuple(states), (), path.request, path.actions(index))
         if not path.branches:
@@ -96,11 +96,11 @@ class Searches:
             return None
         return run, tuple([(outcome.results, (ways[outcome.results], 0, outcome.state)) for outcome in outcomes])
 
-    def _taken(self, path: Path, number: int, state: State) -> Successor | None:
+    def _taken(self, path: Path, number: int, state: State) -> Fork | None:
         """A step of a way, taken in another state."""
-        for successor in self._ahead.successors(path.programs[number], state):
-            if successor.residual is path.programs[number + 1] and successor.label == path.labels[number]:
-                return successor
+        for fork in self._ahead.forks(path.programs[number], state):
+            if fork.residual is path.programs[number + 1] and fork.label == path.labels[number]:
+                return fork
         return None
 
     def _step(self, path: Path, index: int) -> tuple[Label, Node]:

@@ -10,7 +10,7 @@ from golc.program.blame import Blocked
 from golc.program.labels import Act, Foreseen
 from golc.program.lookahead import ANY, Request
 from golc.program.nodes import Node
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.types import Value
 
 if TYPE_CHECKING:

@@ -2,36 +2,57 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Callable
+from typing import TypeAlias
 
 from golc.situation.dynamics import Args, Dynamics
-from golc.situation.layout import State
+from golc.situation.happened import Happened, NotKnownError
+from golc.situation.knowing import placed
+from golc.situation.worlds import State, survey
 from golc.theory.recursion import deep_recursion
+from golc.theory.terms import Before, subterms
 from golc.theory.theory import Prune
 
-Holds = Callable[[State, Args], bool]
+Holds: TypeAlias = Callable[[State, Args, State], bool]
+"""Whether a prune is known to hold: a function of the state before an action, its arguments, and the state after it."""
 
 
 class Prunes:
-    """The prunes of a theory, compiled."""
+    """The prunes of a theory, compiled; true if there are any."""
 
     def __init__(self, dynamics: Dynamics) -> None:
-        theory = dynamics.theory
-        self._everywhere: list[tuple[str, Holds]] = []
-        self._after: defaultdict[str, list[tuple[str, Holds]]] = defaultdict(list)
+        self._dynamics = dynamics
+        self._prunes: list[tuple[Prune, Holds]] = []
         with deep_recursion():
-            for prune in theory.prunes.values():
-                depth = len(theory.actions[prune.action].parameters) if prune.action else 0
-                holds = dynamics.compiler.term(prune.condition, depth)
-                (self._after[prune.action] if prune.action else self._everywhere).append((prune.name, holds))
+            for prune in dynamics.theory.prunes.values():
+                speaks_of_before = any(isinstance(term, Before) for term in subterms(prune.condition))
+                self._prunes.append((prune, (self._between if speaks_of_before else self._afterwards)(prune)))
 
     def __bool__(self) -> bool:
-        return bool(self._everywhere or self._after)
+        return bool(self._prunes)
 
     def hit(self, before: State, action: str, args: Args, after: State) -> str | None:
-        """The name of the first prune that holds in a state to which an action has led from another one, if one does."""
-        for name, holds in self._everywhere:
-            if holds(after, ()):
-                return name
-        ...
+        """The first prune that holds in the state to which an action has led, by its name; none if none does."""
+        for prune, holds in self._prunes:
+            if prune.action in (None, action) and holds(before, args, after):
+                return prune.name
+        return None
+
+    def _depth(self, prune: Prune) -> int:
+        return 0 if prune.action is None else len(self._dynamics.theory.actions[prune.action].parameters)
+
+    def _afterwards(self, prune: Prune) -> Holds:
+        holds = self._dynamics.knowing.condition(prune.condition, self._depth(prune))
+        return lambda before, args, after: bool(holds(after, args))
+
+    def _between(self, prune: Prune) -> Holds:
+        function = self._dynamics.compiler.term(prune.condition, self._depth(prune))
+
+        def holds(before: State, args: Args, after: State) -> bool:
+            try:
+                with placed((prune.condition,)):
+                    return all(answer for _, answer in survey(after, lambda w: function(Happened(w, before), args)))
+            except NotKnownError:
+                return False
+
+        return holds

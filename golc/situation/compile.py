@@ -13,10 +13,12 @@ from math import prod
 from typing import Any, NamedTuple
 
 from golc.situation import guards
+from golc.situation.happened import before
 from golc.situation.layout import Layout, Place
 from golc.situation.worlds import ASK
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
+    Before,
     Binder,
     Choice,
     DefinedTerm,
@@ -157,6 +159,9 @@ class Compiler:
             case Epistemic(kind=kind, body=body):
                 function, names = self._function_of(body, cells)
                 return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
+            case Before(body=body):
+                function, names = self._function_of(body, cells)
+                return f"{self.bind('before', before)}({', '.join([function, *names])})"
             case _:
                 raise AssertionError(term)
 

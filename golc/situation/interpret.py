@@ -10,9 +10,11 @@ from collections.abc import Iterator, Mapping
 from typing import cast
 
 from golc.situation import errors
+from golc.situation.happened import Happened, before
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import ASK, Readable
 from golc.theory.terms import (
+    Before,
     Binder,
     Choice,
     DefinedTerm,
@@ -76,6 +78,8 @@ class Interpreter:
                 return self._operation(term, state, env)
             case Epistemic(kind=kind, body=body):
                 return ASK[kind](lambda world: self.evaluate(body, world, env), state)
+            case Before(body=body):
+                return before(lambda world: self.evaluate(body, world, env), cast(Happened, state))
             case _:
                 raise AssertionError(term)
 
