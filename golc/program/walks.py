@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from golc.program.frames import Frame
 from golc.program.labels import Label
 from golc.program.nodes import Node
-from golc.situation.errors import UndecidedError
 from golc.situation.worlds import State
+from golc.theory.errors import UndecidedError
 
 if TYPE_CHECKING:
     from golc.program.rules import Rule

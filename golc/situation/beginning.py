@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from typing import cast
 
-from golc.situation import errors
-from golc.situation.interpret import Env, Interpreter
+from golc.situation.interpret import Interpreter
 from golc.situation.knowing import placed
 from golc.situation.layout import World
 from golc.situation.worlds import State, choices, keep, survey
+from golc.theory import errors
+from golc.theory.evaluate import Env
+from golc.theory.order import elements
 from golc.theory.terms import Choice, Operation, Operator, Quantified, Term
 from golc.theory.theory import Fluent
 from golc.theory.types import Value, show_call
@@ -38,7 +40,7 @@ def _values(interpreter: Interpreter, fluent: Fluent, args: World) -> Sequence[V
     initial, what = fluent.initial, show_call(fluent.name, args)
     values: Sequence[Value]
     if isinstance(initial, Choice):
-        among = cast(Iterable[Value], interpreter.evaluate(initial.among, (), args))
+        among = elements(interpreter.evaluate(initial.among, (), args), initial.among.type)
         values = tuple(dict.fromkeys(among))
         if not values:
             raise errors.nothing_possible(initial.span, what)

@@ -9,12 +9,13 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, NamedTuple
+from typing import NamedTuple, cast
 
-from golc.situation import errors
 from golc.situation.compile import Cell, Cells, Compiler, variables
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import MOST_CASES, State, TooManyCasesError, View, Worlds, rebuilt, survey
+from golc.theory import errors
+from golc.theory.order import elements
 from golc.theory.terms import Choice
 from golc.theory.theory import Action, Effect
 from golc.theory.types import Unknown, Value, show_call
@@ -52,13 +53,13 @@ class Branching:
         worlds = state if isinstance(state, Worlds) else Worlds(state, ())
         every = (clause.instance(worlds, env) for clause in self._clauses for env in clause.environments(args))
         instances = [instance for instance in every if instance.written]
+        written = frozenset[int]().union(*[instance.written for instance in instances])
         replaced: set[int] = set()
         tables: list[tuple[Sequence[int], Sequence[World]]] = []
         for group in _groups(instances):
             factors = frozenset[int]().union(*[instance.factors for instance in group])
-            tables.append(self._table(worlds, group, sorted(factors)))
+            tables.append(self._table(worlds, group, sorted(factors), written))
             replaced |= factors
-        written = {slot for instance in instances for slot in instance.written}
         for number in {worlds.owner[slot] for slot in written if slot in worlds.owner} - replaced:
             replaced.add(number)
             slots, rows = worlds.factors[number].without(written)
@@ -67,14 +68,21 @@ class Branching:
         return rebuilt(worlds.base, worlds.factors, replaced, tables)
 
     def _table(
-        self, worlds: Worlds, group: Sequence[_Instance], numbers: Sequence[int]
+        self, worlds: Worlds, group: Sequence[_Instance], numbers: Sequence[int], written: frozenset[int]
     ) -> tuple[list[int], list[World]]:
-        """The slots that a group reads as unknown or writes, and the values that they may have afterwards."""
-        written = frozenset[int]().union(*[instance.written for instance in group])
-        slots = sorted(written.union(*[worlds.factors[number].slots for number in numbers]))
+        """The slots that a group reads as unknown or writes, and the values that they may have together afterwards.
+
+        Without those that are ``written`` by another group: that has read none of these factors.
+        """
+        own = frozenset[int]().union(*[instance.written for instance in group])
+        read = frozenset[int]().union(*[worlds.factors[number].slots for number in numbers])
+        slots = sorted(own | (read - written))
         rows: dict[World, None] = {}
-        for combined in itertools.product(*[worlds.factors[number].rows for number in numbers]):
-            view = View(worlds, tuple(zip(numbers, combined, strict=True)))
+        factors = [worlds.factors[number] for number in numbers]
+        view = View(worlds)
+        for combined in itertools.product(*[factor.rows for factor in factors]):
+            for factor, row in zip(factors, combined, strict=True):
+                view.assign(factor, row)
             changes = self._merged(group, view)
             values = [changes[slot] if slot in changes else view[slot] for slot in slots]
             each = [value.values if isinstance(value, Options) else (value,) for value in values]
@@ -170,10 +178,11 @@ class _Clause:
 
         return self._compiler.checked(value, type_, cells, failure)
 
-    def _options(self, among: Any) -> Options:
+    def _options(self, among: Value) -> Options:
         fluent = self._layout.places[self.effect.fluent].fluent
-        span = self.effect.value.span
-        values = tuple(dict.fromkeys(among))
+        choice = cast(Choice, self.effect.value)
+        span = choice.span
+        values = tuple(dict.fromkeys(elements(among, choice.among.type)))
         if not values:
             raise errors.nothing_possible(span, f"`{fluent.name}`")
         for value in values:

@@ -85,7 +85,7 @@ class Compiler:
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
         self.uncertain = leaves_open(theory)
         self._made: dict[tuple[str, str], str] = {}
-        self._positions: dict[int, str] = {}
+        self._depth = guards.Depth()
 
     def function(self, parameters: str, lines: list[str]) -> Callable[..., Any]:
         """A Python function of generated lines."""
@@ -269,7 +269,7 @@ class Compiler:
         """The name of a mapping from argument tuples; that of an expression is filled when it is asked."""
         if isinstance(static.body, Mapping):
             return self.bind("table", static.body)
-        memo = guards.Memo(static)
+        memo = guards.Memo(static, self._depth)
         name = self._made["static", static.name] = self.bind("static", memo)  # before its body, which may be recursive
         cells = variables(len(static.parameters))
         body = static.body

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from golc.diagnostics import Span
-from golc.situation import errors
 from golc.situation.beginning import initial_state
 from golc.situation.branching import Branching
 from golc.situation.compile import Cells, Compiler, fits, variables
@@ -19,10 +18,12 @@ from golc.situation.interpret import Interpreter
 from golc.situation.knowing import Knowing, placed
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
+from golc.theory import errors
+from golc.theory.fitting import describe
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
-from golc.theory.types import Unknown, Value, show_call
+from golc.theory.types import Unknown, Value, show, show_call
 
 Args: TypeAlias = tuple[Value, ...]
 
@@ -189,7 +190,7 @@ class Dynamics:
         for parameter, arg in zip(parameters, args, strict=True):
             if arg not in parameter.type:
                 call = show_call(action, args)
-                return f"{show_call('', (arg,))[1:-1]} in `{call}` is outside {errors.describe(parameter.type)}"
+                return f"{show(arg)} in `{call}` is outside {describe(parameter.type)}"
         return None
 
     def _compile_possible_in(self, name: str) -> Callable[..., bool]:

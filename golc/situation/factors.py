@@ -5,7 +5,7 @@ Twenty switches of which nothing is known are twenty factors of two rows each, n
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence, Set
 from dataclasses import dataclass
 from functools import cached_property
 from math import prod
@@ -29,7 +29,7 @@ class Factor:
         """What makes two factors equal: the order of the rows does not count."""
         return self.slots, frozenset(self.rows)
 
-    def without(self, slots: set[int]) -> tuple[tuple[int, ...], list[World]]:
+    def without(self, slots: Set[int]) -> tuple[tuple[int, ...], list[World]]:
         """The other slots, and the rows that remain of them."""
         columns = [index for index, slot in enumerate(self.slots) if slot not in slots]
         return tuple([self.slots[column] for column in columns]), distinct(self.rows, columns)

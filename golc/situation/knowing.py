@@ -12,10 +12,11 @@ from contextlib import contextmanager
 from typing import Any, TypeAlias
 
 from golc.diagnostics import NOWHERE
-from golc.situation import errors
 from golc.situation.compile import Compiler
-from golc.situation.interpret import Env, Interpreter
+from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
+from golc.theory import errors
+from golc.theory.evaluate import Env
 from golc.theory.terms import Binder, DefinedTerm, FluentTerm, PossTerm, StaticTerm, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import Unknown, Value, show, show_call

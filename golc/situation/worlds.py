@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from functools import cached_property
 from math import prod
 from typing import TypeAlias, TypeVar, cast
@@ -110,7 +111,11 @@ class View:
         self._base = worlds.base
         self._cells: dict[int, Value] = {}
         for number, row in assignment:
-            self._cells.update(zip(worlds.factors[number].slots, row, strict=True))
+            self.assign(worlds.factors[number], row)
+
+    def assign(self, factor: Factor, row: World) -> None:
+        """Look at a world in which a factor has this row."""
+        self._cells.update(zip(factor.slots, row, strict=True))
 
     def __getitem__(self, slot: int) -> Value:
         value = self._base[slot]
@@ -120,7 +125,7 @@ class View:
             worlds = cast(Worlds, self.state)
             number = worlds.owner[slot]
             factor = worlds.factors[number]
-            self._cells.update(zip(factor.slots, factor.rows[0], strict=True))
+            self.assign(factor, factor.rows[0])
             self.trail.append((number, factor.rows[0]))
         return self._cells[slot]
 
@@ -151,26 +156,46 @@ def survey(state: State, ask: Callable[[Readable], T]) -> Iterator[tuple[Assignm
     if not isinstance(state, Worlds):
         yield (), ask(state)
         return
-    cases = 0
-    stack: list[tuple[Assignment, int, int]] = []  # a prefix, the factor to be assigned next, the number of its row
-    assignment: Assignment = ()
+    stack: list[_Alternatives] = []
+    view, assignment, cases = View(state), cast(Assignment, ()), 0
     while True:
-        view = View(state, assignment)
         answer = ask(view)
         for number, row in view.trail:
-            stack.append((assignment, number, 1))
+            stack.append(_Alternatives(state, assignment, number, iter(state.factors[number].rows[1:])))
             assignment = (*assignment, (number, row))
         yield assignment, answer
         cases += 1
         if cases > MOST_CASES:
             raise TooManyCasesError(MOST_CASES)
-        if not stack:
+        found = None
+        while stack and found is None:
+            found = stack[-1].next()
+            if found is None:
+                stack.pop()
+        if found is None:
             return
-        prefix, number, index = stack.pop()
-        rows = state.factors[number].rows
-        if index + 1 < len(rows):
-            stack.append((prefix, number, index + 1))
-        assignment = (*prefix, (number, rows[index]))
+        view, assignment = found
+
+
+@dataclass(slots=True)
+class _Alternatives:
+    """The rows of a factor that are still to be looked at, below an assignment of others."""
+
+    worlds: Worlds
+    prefix: Assignment
+    number: int
+    rows: Iterator[World]
+    view: View | None = None
+
+    def next(self) -> tuple[View, Assignment] | None:
+        """The next case; its view is used again unless it has been assigned more by reading."""
+        row = next(self.rows, None)
+        if row is None:
+            return None
+        if self.view is None or self.view.trail:
+            self.view = View(self.worlds, self.prefix)
+        self.view.assign(self.worlds.factors[self.number], row)
+        return self.view, (*self.prefix, (self.number, row))
 
 
 def _everywhere(ask: Callable[..., Value], world: Readable, *rest: Value) -> Iterator[Value]:
@@ -208,8 +233,8 @@ def keep(state: State, cases: Iterable[Assignment]) -> State:
         return state
     factors = [state.factors[number] for number in numbers]
     slots = [slot for factor in factors for slot in factor.slots]
-    rows: list[World] = []
-    for case in kept:
+    rows: list[World] = [row for ((_, row),) in kept] if len(numbers) == 1 else []
+    for case in kept if len(numbers) > 1 else ():
         chosen = dict(case)
         parts = [(chosen[number],) if number in chosen else state.factors[number].rows for number in numbers]
         rows += [tuple(itertools.chain.from_iterable(combined)) for combined in itertools.product(*parts)]

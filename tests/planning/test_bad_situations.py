@@ -14,9 +14,8 @@ from golc.planning.limits import Limits
 from golc.planning.planner import Planning, executable
 from golc.planning.plans import Plan
 from golc.situation.dynamics import Dynamics
-from golc.situation.happened import Happened
 from golc.situation.interpret import Interpreter
-from golc.situation.worlds import Readable
+from golc.situation.layout import World
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
 
@@ -200,8 +199,8 @@ def enters_a_bad_situation(theory: BasicActionTheory, plan: Plan) -> bool:
     for act in plan.actions:
         after = dynamics.progress(state, act.action, act.args)
         for prune in theory.prunes.values():
-            world = cast(Readable, Happened(cast(Readable, after), state))
-            if prune.action in (None, act.action) and interpreter.holds(prune.condition, world, act.args):
+            interpreter.before = cast(World, state)
+            if prune.action in (None, act.action) and interpreter.holds(prune.condition, cast(World, after), act.args):
                 return True
         state = after
     return False
