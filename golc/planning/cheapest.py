@@ -8,7 +8,7 @@ from golc.planning.limits import Budget
 from golc.program.ahead import Ahead
 from golc.program.labels import Act
 from golc.program.nodes import Node
-from golc.program.paths import Path
+from golc.program.paths import Path, bottom_up
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
 
@@ -27,6 +27,10 @@ def find(machine: Ahead, node: Node, state: State, budget: Budget, dead_end: Dea
 
 
 def cost(dynamics: Dynamics, path: Path) -> int:
-    """The sum of the costs of a path's actions."""
-    steps = zip(path.states, path.labels, strict=False)
-    return sum(dynamics.cost(before, act.action, act.args) for before, act in steps if isinstance(act, Act))
+    """The sum of the costs of a path's actions; where it branches, in the dearest branch."""
+    costs: dict[Path, int] = {}
+    for part in bottom_up(path):
+        steps = zip(part.states, part.labels, strict=False)
+        own = sum(dynamics.cost(before, act.action, act.args) for before, act in steps if isinstance(act, Act))
+        costs[part] = own + max([costs[branch.path] for branch in part.branches], default=0)
+    return costs[path]

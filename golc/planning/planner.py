@@ -6,14 +6,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 from golc.diagnostics import LimitError
-from golc.planning import cheapest, depth_first, shortest
+from golc.planning import cheapest, conditional, depth_first, shortest
 from golc.planning.all_plans import enumerate_plans
 from golc.planning.dead_end import DeadEnd
 from golc.planning.limits import Budget, GivenUpSearchError, Limits
-from golc.planning.plans import Outcome, Plan
+from golc.planning.plans import Outcome, Plan, plan_of
 from golc.program.ahead import Ahead
 from golc.program.build import Builder
-from golc.program.labels import Act, Expect
 from golc.program.lookahead import Request
 from golc.program.nodes import Node
 from golc.program.paths import NoPath, Path
@@ -44,12 +43,17 @@ class Executable:
     look_ahead: LookAhead
 
 
-def executable(theory: BasicActionTheory, procedure: str, args: tuple[Value, ...] = ()) -> Executable:
-    """Compile a procedure; its arguments must be of the parameters' types."""
+def executable(
+    theory: BasicActionTheory, procedure: str, args: tuple[Value, ...] = (), conformant: bool = False
+) -> Executable:
+    """Compile a procedure; its arguments must be of the parameters' types.
+
+    ``conformant``: look-ahead makes no use of what actions sense.
+    """
     dynamics = Dynamics(theory)
     program = Program()
     look_ahead = LookAhead()
-    ahead = Ahead(dynamics, program)
+    ahead = Ahead(dynamics, program, conformant)
     with deep_recursion():
         node = Builder(dynamics, program).start(procedure, args)
     return Executable(dynamics, Machine(dynamics, program, ahead, look_ahead), ahead, node, look_ahead)
@@ -86,8 +90,11 @@ class LookAhead:
 
 
 def _find(
-    strategy: Strategy, machine: Ahead, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None
+    strategy: Strategy, machine: Ahead, node: Node, state: State, budget: Budget, dead_end: DeadEnd
 ) -> Path | None:
+    if machine.senses:
+        problem = conditional.Programs(machine)
+        return conditional.find(problem, machine.dynamics, strategy, (node, state), budget, dead_end)
     match strategy:
         case Strategy.FIRST:
             return depth_first.find(machine, node, state, budget, dead_end)
@@ -143,10 +150,9 @@ class Planning:
             yield self._plan(path)
 
     def _plan(self, path: Path) -> Plan:
-        steps = tuple(label for label in path.labels if isinstance(label, Act | Expect))
-        if self._strategy is not Strategy.CHEAPEST:
-            return Plan(steps)
-        return Plan(steps, cost=cheapest.cost(self._executable.dynamics, path))
+        dynamics = self._executable.dynamics
+        cost = cheapest.cost(dynamics, path) if self._strategy is Strategy.CHEAPEST else None
+        return plan_of(path, dynamics, cost)
 
     def _count(self) -> None:
         self.outcome.expanded = self._budget.expanded

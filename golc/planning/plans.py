@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
 from golc.program.blame import Blocked
 from golc.program.labels import Act, Expect
-from golc.theory.types import Value
+from golc.program.paths import Path, bottom_up
+from golc.situation.dynamics import Dynamics
+from golc.situation.worlds import State
+from golc.theory.terms import FluentTerm
+from golc.theory.types import Unknown, Value, show, show_call
 
 Step: TypeAlias = Act | Expect
 """A step of a plan: something to be done, or something that is expected to happen."""
@@ -38,6 +42,41 @@ class Case:
 
     results: tuple[Value, ...]
     plan: Plan
+
+
+def plan_of(path: Path, dynamics: Dynamics, cost: int | None = None) -> Plan:
+    """A path as a plan; paths that are one object become one plan."""
+    plans: dict[Path, Plan] = {}
+    for part in bottom_up(path):
+        steps = tuple([label for label in part.labels if isinstance(label, Act | Expect)])
+        if part.branches:
+            last = part.labels[-1]
+            assert isinstance(last, Act)
+            names = sensed(dynamics, last, part.branches[0].path.states[0])
+            cases = tuple([Case(branch.results, plans[branch.path]) for branch in part.branches])
+            plans[part] = Plan(steps, names, cases)
+        else:
+            plans[part] = Plan(steps)
+    return replace(plans[path], cost=cost)
+
+
+def sensed(dynamics: Dynamics, act: Act, state: State) -> tuple[str, ...]:
+    """What an action senses in the state to which it has led: a fluent with its arguments, any other term as the file
+    writes it."""
+    names = []
+    for term in dynamics.theory.actions[act.action].senses:
+        name = " ".join(term.span.text.split())
+        if isinstance(term, FluentTerm):
+            args = tuple([dynamics.knowing.evaluate(arg, state, act.args) for arg in term.args])
+            if not any(isinstance(arg, Unknown) for arg in args):
+                name = show_call(term.fluent, args)
+        names.append(name)
+    return tuple(names)
+
+
+def answers(names: tuple[str, ...], results: tuple[Value, ...]) -> str:
+    """What was sensed, with the results."""
+    return ", ".join(f"{name} = {show(value)}" for name, value in zip(names, results, strict=True))
 
 
 @dataclass

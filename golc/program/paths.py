@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
 
@@ -100,3 +100,18 @@ def joined(start: Key, run: Callable[[Key], Run[Key] | None]) -> Path | None:
             ways = tuple([Branch(results, paths[after]) for results, after in branches])
             paths.setdefault(key, replace(path, branches=ways) if ways else path)
     return paths[start]
+
+
+def bottom_up(path: Path) -> Iterator[Path]:
+    """Each path that a path consists of, once, after those that it branches into; no recursion, the depth is the
+    plan's."""
+    stack, seen = [path], set[Path]()
+    while stack:
+        top = stack[-1]
+        missing = [branch.path for branch in top.branches if branch.path not in seen]
+        stack.extend(reversed(missing))
+        if not missing:
+            stack.pop()
+            if top not in seen:
+                seen.add(top)
+                yield top

@@ -1,0 +1,144 @@
+"""Plans whose worst branch weighs as little as possible, and so does the rest of it after every result of sensing.
+
+The graph of pairs and options is explored from the start in the order of weight, as in Dijkstra's algorithm, and the
+least weight to an end in the worst case is computed backwards over what has been explored: Knuth's generalization of
+Dijkstra's algorithm (1977) with *max* as the superior function. A plan within a weight *w* uses only pairs that are
+reached with at most *w*, so as soon as the start is worth no more than what is to be explored next, it is worth that.
+Of the options that attain the values, the first in their order make the plan.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from heapq import heappop, heappush
+from itertools import count
+from typing import Generic, TypeAlias
+
+from golc.planning.and_or import Option, P, Problem, Solved, Stuck, first
+from golc.planning.limits import Budget
+from golc.program.circles import CIRCLES, runs_in_circles
+from golc.program.labels import Act
+
+Weigh: TypeAlias = Callable[[P, Act], int]
+"""What an action adds to the weight of a branch, given the pair before it; at least 0."""
+
+
+@dataclass(eq=False, slots=True)
+class _Vertex(Generic[P]):
+    """A pair: ``value`` is the least weight of a plan from it, as far as is known.
+
+    ``weight`` is the least with which it was reached, and ``quiet`` the steps since the last action on that way.
+    ``edges`` are given when it has been expanded; ``parents`` have an edge that leads here.
+    """
+
+    pair: P
+    weight: int
+    quiet: int
+    value: float = math.inf
+    edges: list[_Edge[P]] | None = None
+    parents: list[_Vertex[P]] = field(default_factory=list)
+
+
+@dataclass(eq=False, slots=True)
+class _Edge(Generic[P]):
+    """An option, what it weighs, and the vertices of its outcomes."""
+
+    option: Option[P]
+    weight: int
+    vertices: tuple[_Vertex[P], ...]
+
+    @property
+    def value(self) -> float:
+        """The least weight of a plan that begins with it."""
+        return self.weight + max([vertex.value for vertex in self.vertices])
+
+
+def find(
+    problem: Problem[P], start: P, budget: Budget, weigh: Weigh[P], allows: Callable[[int], bool]
+) -> Solved[P] | Stuck[P] | None:
+    """The first of the lightest plans with at least one step; otherwise why there is none, as ``and_or.first`` says.
+
+    ``allows``: whether a branch may weigh so much. Raises ``LimitError`` at a limit.
+    """
+    graph = _Graph(problem, start, budget, weigh, allows)
+    graph.explore()
+    return first(graph, start, Budget())
+
+
+class _Graph(Generic[P]):
+    """What has been explored; as a problem, its options are those that attain the values, or, if there is no plan at
+    all, every one of them."""
+
+    def __init__(
+        self, problem: Problem[P], start: P, budget: Budget, weigh: Weigh[P], allows: Callable[[int], bool]
+    ) -> None:
+        self._problem = problem
+        self._budget = budget
+        self._weigh = weigh
+        self._allows = allows
+        self._root = _Vertex(start, 0, 0)
+        self._vertices: dict[P, _Vertex[P]] = {} if problem.is_end(start) else {start: self._root}
+        self._number = count()
+        self._heap = [(0, next(self._number), self._root)]
+
+    def explore(self) -> None:
+        """Expand what can be a part of the best plan."""
+        while self._heap and self._heap[0][0] <= self._root.value:
+            _, _, vertex = heappop(self._heap)
+            if vertex.edges is None:
+                self._expand(vertex)
+                self._improve(vertex)
+
+    def is_end(self, pair: P) -> bool:
+        """Whether a plan may end there."""
+        vertex = self._vertices.get(pair)
+        return vertex is not None and vertex.value == 0 and vertex.edges is None
+
+    def options(self, pair: P) -> Iterator[Option[P]]:
+        """The options that make the best plan, or all if there is none."""
+        vertex = self._root if pair == self._root.pair else self._vertices[pair]
+        for edge in vertex.edges or ():
+            if edge.value == vertex.value:
+                yield edge.option
+
+    def _expand(self, vertex: _Vertex[P]) -> None:
+        self._budget.spend()
+        vertex.edges = []
+        for option in self._problem.options(vertex.pair):
+            label = option.label
+            weight = self._weigh(vertex.pair, label) if isinstance(label, Act) else 0
+            if not self._allows(vertex.weight + weight):
+                continue
+            quiet = 0 if isinstance(label, Act) else vertex.quiet + 1
+            if quiet > CIRCLES:
+                raise runs_in_circles(label.span)
+            reached = [self._reached(pair, vertex.weight + weight, quiet) for _, pair in option.outcomes]
+            for other in reached:
+                other.parents.append(vertex)
+            vertex.edges.append(_Edge(option, weight, tuple(reached)))
+
+    def _reached(self, pair: P, weight: int, quiet: int) -> _Vertex[P]:
+        """The vertex of a pair, on the heap if it is to be expanded and was not reached with less weight."""
+        vertex = self._vertices.get(pair)
+        if vertex is None:
+            self._vertices[pair] = vertex = _Vertex(pair, weight, quiet)
+            if self._problem.is_end(pair):
+                vertex.value = 0
+        elif vertex.weight <= weight:
+            return vertex
+        vertex.weight, vertex.quiet = weight, quiet
+        if vertex.value and vertex.edges is None:
+            heappush(self._heap, (weight, next(self._number), vertex))
+        return vertex
+
+    def _improve(self, vertex: _Vertex[P]) -> None:
+        """Lower the value of a vertex to what its edges allow, and then those of its parents."""
+        pending = [vertex]
+        while pending:
+            vertex = pending.pop()
+            value = min([edge.value for edge in vertex.edges or ()], default=math.inf)
+            if value < vertex.value:
+                vertex.value = value
+                pending.extend(vertex.parents)
