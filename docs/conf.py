@@ -26,6 +26,7 @@ html_theme = "furo"
 html_title = f"golc {release}"
 html_copy_source = False
 html_show_copyright = False
+highlight_language = "text"
 pygments_style = "friendly"
 pygments_dark_style = "github-dark"
 

@@ -8,11 +8,11 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any
 
 import click
 
-from golc.cli.common import Console, Quantity, console_options, constants_option
+from golc.cli.common import Console, Quantity, completed, console_options, constants_option
 
 if TYPE_CHECKING:
     from golc.planning.goals import GoalPlanning
@@ -139,29 +139,10 @@ def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
     if not output:
         raise click.BadParameter("a file has a name", param_hint="--output")
     try:
-        with _completed(Path(os.path.realpath(output))) as stream:
+        with completed(Path(os.path.realpath(output))) as stream:
             yield lambda line: print(line, file=stream)
     except OSError as error:
         raise click.FileError(output, error.strerror or str(error)) from None
-
-
-@contextmanager
-def _completed(path: Path) -> Iterator[TextIO]:
-    """A stream to a file that takes its place at the end; a pipe or a device is written to and never replaced."""
-    if path.exists() and not path.is_file():
-        with path.open("w", encoding="utf-8") as stream:
-            yield stream
-        return
-    partial = path.with_name(f".golc-{os.getpid()}.part")
-    with partial.open("x", encoding="utf-8") as stream:
-        try:
-            yield stream
-            stream.flush()
-            if path.exists():
-                partial.chmod(path.stat().st_mode & 0o7777)
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)
 
 
 class _Text:

@@ -6,8 +6,8 @@ How a page is read:
 - If a ``text`` block that begins with a finding follows at once, the file has exactly these findings.
 - A line that ends in ``# planned`` is answered with "not supported yet"; a file that has one has no other findings.
 - Any other ``golc`` block is a part of a file, a part of a program, or expressions, and has to parse.
-- A block with a name behind its language (``golc garden.gl``) is saved under that name for the sessions below it, or
-  appended to the file (``golc + garden.gl``).
+- A block with a name behind its language (``golc garden.gl``) is saved under that name for what stands below it, or
+  appended to the file (``golc + garden.gl``), which then as a whole is a file without findings.
 - A ``console`` block with a ``$ golc`` line is a session: its commands are run, and their output is compared (see
   ``Terminal``). What should not be run stands in a block of another language.
 """
@@ -106,6 +106,8 @@ def _ids(found: list[Block]) -> list[str]:
 
 DOMAINS = [block for block in BLOCKS if block.is_domain]
 PARTS = [block for block in BLOCKS if block.language == "golc" and not block.is_domain]
+LONGEST = list({(block.page, block.file): block for block in PARTS if block.name}.values())
+"""The last block of each file that has several."""
 
 
 @pytest.mark.parametrize("block", DOMAINS, ids=_ids(DOMAINS))
@@ -113,6 +115,7 @@ def test_domain_has_the_findings_that_the_page_shows(
     block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
+    save_above(block, tmp_path)
     block.save(tmp_path)
     _, found = examine(block.file)
     planned = [number for number, line in enumerate(block.text.splitlines(), 1) if line.endswith("# planned")]
@@ -121,6 +124,21 @@ def test_domain_has_the_findings_that_the_page_shows(
         assert {finding.code for finding in found} == {Code.UNSUPPORTED}
     else:
         assert "\n\n".join(map(render, found)) == block.findings.rstrip()
+
+
+def save_above(block: Block, folder: Path) -> None:
+    """Write the files that the page has shown up to a block."""
+    for above in blocks(block.page):
+        if above.line < block.line and above.name:
+            above.save(folder)
+
+
+@pytest.mark.parametrize("block", LONGEST, ids=_ids(LONGEST))
+def test_file_in_several_blocks_has_no_findings(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    save_above(block, tmp_path)
+    block.save(tmp_path)
+    assert "\n\n".join(map(render, examine(block.file)[1])) == ""
 
 
 @pytest.mark.parametrize("block", PARTS, ids=_ids(PARTS))
