@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -16,9 +15,8 @@ from golc.cli.common import Console, Quantity, completed, console_options, const
 
 if TYPE_CHECKING:
     from golc.planning.goals import GoalPlanning
-    from golc.planning.limits import Limits
     from golc.planning.planner import Planning
-    from golc.planning.plans import Outcome, Plan, Step
+    from golc.planning.plans import Outcome
 
 DONE, NO_PLAN, GAVE_UP = 0, 1, 3
 EVERY = 10**12
@@ -47,7 +45,10 @@ EVERY = 10**12
     "--nodes", type=click.IntRange(min=1), metavar="N", help="Give up after N expanded pairs of program and state."
 )
 @click.option("--stats", is_flag=True, help="Say what the search took.")
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to write plans.")
+@click.option("--conformant", is_flag=True, help="Plans that work without knowing what is sensed.")
+@click.option(
+    "--format", "format_", type=click.Choice(["text", "json", "dot"]), default="text", help="How to write plans."
+)
 @click.option("-o", "--output", type=click.Path(dir_okay=False), metavar="FILE", help="Write the plans to a file.")
 @constants_option
 @console_options
@@ -63,6 +64,7 @@ def command(
     steps: int | None,
     seconds: float | None,
     nodes: int | None,
+    conformant: bool,
     stats: bool,
     format_: str,
     output: str | None,
@@ -78,49 +80,44 @@ def command(
     golc plan examples/elevator/elevator.gl 'handle(25)' --all
     golc plan examples/elevator/elevator.gl --goal 'at = 5 and not lit(5)'
     """
+    from golc.cli.plan_writing import FORMATS
+    from golc.loading import GOAL, load
+    from golc.planning.goals import GoalPlanning
     from golc.planning.limits import Limits
+    from golc.planning.planner import Planning, executable
+    from golc.theory.ground import read_procedure
+    from golc.theory.statements import Strategy
 
     _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
     if goal is not None and (procedure is not None or cheapest or most is not None):
         raise click.UsageError("--goal asks for one shortest plan without a program: no PROC, --all or --cheapest")
     limits = Limits(steps, nodes, seconds)
+    strategy = Strategy.SHORTEST if shortest else Strategy.CHEAPEST if cheapest else Strategy.FIRST
     planning: Planning | GoalPlanning
     if goal is not None:
-        program, planning = goal, _for_goal(file, constants, goal, limits)
+        program, planning = goal, GoalPlanning(load(file, constants, goal), GOAL, limits, conformant)
     else:
-        strategy = "shortest" if shortest else "cheapest" if cheapest else "first"
-        program, planning = _for_program(file, constants, procedure or "control", limits, most is not None, strategy)
+        theory = load(file, constants)
+        call = read_procedure(theory, procedure or "control")
+        ready = executable(theory, call.action, call.args, conformant)
+        if most is not None and ready.ahead.senses:
+            raise click.UsageError(
+                "--all lists sequences of actions, but plans of this domain depend on what is sensed; "
+                "those that do not are listed with --conformant"
+            )
+        program, planning = str(call), Planning(ready, limits, most is not None, strategy)
+    cost = None
     with _writer(output) as write:
-        listing = _Json(write) if format_ == "json" else _Text(write, numbered=most is not None)
+        listing = FORMATS[format_](write, most is not None)
         for plan in islice(planning, most):
             listing.add(plan)
+            cost = plan.cost
         listing.close(planning.outcome)
     outcome = planning.outcome
-    _report(console, program, outcome, stats, listing.cost)
+    _report(console, program, outcome, stats, cost)
     if outcome.plans and most is not None and outcome.plans >= most:
         return DONE
     return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
-
-
-def _for_goal(file: str, constants: Mapping[str, str], goal: str, limits: Limits) -> GoalPlanning:
-    from golc.loading import GOAL, load
-    from golc.planning.goals import GoalPlanning
-
-    return GoalPlanning(load(file, constants, goal), GOAL, limits)
-
-
-def _for_program(
-    file: str, constants: Mapping[str, str], procedure: str, limits: Limits, all_plans: bool, strategy: str
-) -> tuple[str, Planning]:
-    from golc.loading import load
-    from golc.planning.planner import Planning, executable
-    from golc.theory.ground import read_procedure
-    from golc.theory.statements import Strategy
-
-    theory = load(file, constants)
-    call = read_procedure(theory, procedure)
-    ready = executable(theory, call.action, call.args)
-    return str(call), Planning(ready, limits, all_plans, Strategy(strategy))
 
 
 def _only_one(given: Mapping[str, bool]) -> None:
@@ -143,66 +140,6 @@ def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
             yield lambda line: print(line, file=stream)
     except OSError as error:
         raise click.FileError(output, error.strerror or str(error)) from None
-
-
-class _Text:
-    """One action a line; with several plans a heading for each."""
-
-    def __init__(self, write: Callable[[str], None], numbered: bool) -> None:
-        self._write = write
-        self._numbered = numbered
-        self._count = 0
-        self.cost: int | None = None
-
-    def add(self, plan: Plan) -> None:
-        self._count += 1
-        self.cost = plan.cost
-        if self._numbered:
-            self._write(f"# plan {self._count}: {_actions(len(plan.actions))}")
-        for step in plan.steps:
-            self._write(str(step))
-
-    def close(self, outcome: Outcome) -> None:
-        """Nothing more to say: a failure is told on stderr."""
-
-
-class _Json:
-    """One object: ``plans`` (lists of ``{"action": name, "args": [...]}``), ``outcome``, ``gave_up``, ``expanded``.
-
-    ``cost`` is that of the cheapest plan, if it was asked for.
-    """
-
-    def __init__(self, write: Callable[[str], None]) -> None:
-        self._write = write
-        self._plans: list[Any] = []
-        self.cost: int | None = None
-
-    def add(self, plan: Plan) -> None:
-        self.cost = plan.cost
-        self._plans.append([_as_object(step) for step in plan.steps])
-
-    def close(self, outcome: Outcome) -> None:
-        """Write the object."""
-        from golc.theory.types import writable
-
-        result = "found" if outcome.plans else "gave up" if outcome.gave_up else "impossible"
-        document = {
-            "outcome": result,
-            "gave_up": outcome.gave_up,
-            "plans": writable(self._plans),
-            "cost": writable(self.cost),
-            "deepest": list(outcome.stuck),
-            "failed": [str(reason) for reason in outcome.reasons],
-            "expanded": outcome.expanded,
-        }
-        self._write(json.dumps(document, indent=2))
-
-
-def _as_object(step: Step) -> dict[str, Any]:
-    from golc.program.labels import Act
-
-    kind = "action" if isinstance(step, Act) else "expected"
-    return {kind: step.action, "args": step.args}
 
 
 def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: int | None) -> None:
@@ -231,7 +168,3 @@ def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost:
 
 def _plans(count: int) -> str:
     return f"{count} plan{'' if count == 1 else 's'}"
-
-
-def _actions(count: int) -> str:
-    return f"{count} action{'' if count == 1 else 's'}"

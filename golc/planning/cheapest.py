@@ -29,8 +29,8 @@ def find(machine: Ahead, node: Node, state: State, budget: Budget, dead_end: Dea
 def cost(dynamics: Dynamics, path: Path) -> int:
     """The sum of the costs of a path's actions; where it branches, in the dearest branch."""
     costs: dict[Path, int] = {}
-    for part in bottom_up(path):
+    for part in bottom_up(path, lambda part: part.ways):
         steps = zip(part.states, part.labels, strict=False)
         own = sum(dynamics.cost(before, act.action, act.args) for before, act in steps if isinstance(act, Act))
-        costs[part] = own + max([costs[branch.path] for branch in part.branches], default=0)
+        costs[part] = own + max([costs[way] for way in part.ways], default=0)
     return costs[path]

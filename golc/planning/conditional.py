@@ -8,6 +8,7 @@ from typing import TypeAlias
 from golc.planning import and_or, worst_case
 from golc.planning.and_or import Option, P, Problem, Solved, Stuck
 from golc.planning.dead_end import DeadEnd
+from golc.planning.ground_actions import GroundActions
 from golc.planning.limits import Budget
 from golc.planning.plans import answers, sensed
 from golc.program.ahead import Ahead
@@ -37,6 +38,23 @@ class Programs(Problem[Pair]):
         for fork in self._machine.forks(*pair):
             outcomes = tuple([(outcome.results, (fork.residual, outcome.state)) for outcome in fork.outcomes])
             yield Option(fork.label, outcomes)
+
+
+class Goal(Problem[Pair]):
+    """What can be done without a program; a plan ends where a formula is known to be true."""
+
+    def __init__(self, actions: GroundActions, holds: Callable[..., bool]) -> None:
+        self._actions = actions
+        self._holds = holds
+
+    def is_end(self, pair: Pair) -> bool:
+        """Whether the goal is reached."""
+        return self._holds(pair[1], ())
+
+    def options(self, pair: Pair) -> Iterator[Option[Pair]]:
+        """The actions that are possible, in their order."""
+        for label, outcomes in self._actions.forks(pair[1]):
+            yield Option(label, tuple([(outcome.results, (pair[0], outcome.state)) for outcome in outcomes]))
 
 
 class _Counted(Problem[Counted]):

@@ -35,6 +35,11 @@ class Plan:
         """The steps that are actions."""
         return tuple([step for step in self.steps if isinstance(step, Act)])
 
+    @property
+    def ways(self) -> list[Plan]:
+        """How it may go on."""
+        return [case.plan for case in self.cases]
+
 
 @dataclass(frozen=True)
 class Case:
@@ -47,7 +52,7 @@ class Case:
 def plan_of(path: Path, dynamics: Dynamics, cost: int | None = None) -> Plan:
     """A path as a plan; paths that are one object become one plan."""
     plans: dict[Path, Plan] = {}
-    for part in bottom_up(path):
+    for part in bottom_up(path, lambda part: part.ways):
         steps = tuple([label for label in part.labels if isinstance(label, Act | Expect)])
         if part.branches:
             last = part.labels[-1]
@@ -66,7 +71,9 @@ def sensed(dynamics: Dynamics, act: Act, state: State) -> tuple[str, ...]:
     names = []
     for term in dynamics.theory.actions[act.action].senses:
         name = " ".join(term.span.text.split())
-        if isinstance(term, FluentTerm):
+        if not isinstance(term, FluentTerm):
+            name = f"({name})" if " " in name else name
+        else:
             args = tuple([dynamics.knowing.evaluate(arg, state, act.args) for arg in term.args])
             if not any(isinstance(arg, Unknown) for arg in args):
                 name = show_call(term.fluent, args)

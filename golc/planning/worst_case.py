@@ -19,7 +19,8 @@ from typing import Generic, TypeAlias
 from golc.planning.and_or import Option, P, Problem, Solved, Stuck, first
 from golc.planning.limits import Budget
 from golc.program.circles import CIRCLES, runs_in_circles
-from golc.program.labels import Act
+from golc.program.labels import Act, Foreseen
+from golc.theory.types import Value
 
 Weigh: TypeAlias = Callable[[P, Act], int]
 """What an action adds to the weight of a branch, given the pair before it; at least 0."""
@@ -30,7 +31,8 @@ class _Vertex(Generic[P]):
     """A pair: ``value`` is the least weight of a plan from it, as far as is known.
 
     ``weight`` is the least with which it was reached, and ``quiet`` the steps since the last action on that way.
-    ``edges`` are given when it has been expanded; ``parents`` have an edge that leads here.
+    ``edges`` are given when it has been expanded; ``idle``: nothing can be done there. ``parents`` have an edge that
+    leads here.
     """
 
     pair: P
@@ -38,6 +40,7 @@ class _Vertex(Generic[P]):
     quiet: int
     value: float = math.inf
     edges: list[_Edge[P]] | None = None
+    idle: bool = False
     parents: list[_Vertex[P]] = field(default_factory=list)
 
 
@@ -58,18 +61,21 @@ class _Edge(Generic[P]):
 def find(
     problem: Problem[P], start: P, budget: Budget, weigh: Weigh[P], allows: Callable[[int], bool]
 ) -> Solved[P] | Stuck[P] | None:
-    """The first of the lightest plans with at least one step; otherwise why there is none, as ``and_or.first`` says.
+    """The first of the lightest plans with at least one step; otherwise the longest way to where there is none.
 
     ``allows``: whether a branch may weigh so much. Raises ``LimitError`` at a limit.
     """
     graph = _Graph(problem, start, budget, weigh, allows)
     graph.explore()
-    return first(graph, start, Budget())
+    return first(graph, start, Budget()) if graph.is_solved else graph.stuck()
+
+
+_Step: TypeAlias = tuple[_Vertex[P], Foreseen, tuple[Value, ...]]
+"""A vertex, what was done there, and the results of sensing."""
 
 
 class _Graph(Generic[P]):
-    """What has been explored; as a problem, its options are those that attain the values, or, if there is no plan at
-    all, every one of them."""
+    """What has been explored; as a problem, its options are those that attain the values."""
 
     def __init__(
         self, problem: Problem[P], start: P, budget: Budget, weigh: Weigh[P], allows: Callable[[int], bool]
@@ -91,13 +97,41 @@ class _Graph(Generic[P]):
                 self._expand(vertex)
                 self._improve(vertex)
 
+    @property
+    def is_solved(self) -> bool:
+        """Whether there is a plan."""
+        return self._root.value < math.inf
+
+    def stuck(self) -> Stuck[P]:
+        """The longest of the shortest ways, through pairs that have no plan, to one where nothing can be done; if there
+        is always something to do, to any."""
+        before: dict[_Vertex[P], _Step[P] | None] = {self._root: None}
+        actions = {self._root: 0}
+        deepest = self._root
+        pending = [self._root]
+        for vertex in pending:
+            if (vertex.idle, actions[vertex]) > (deepest.idle, actions[deepest]):
+                deepest = vertex
+            for edge in vertex.edges or ():
+                label, outcomes = edge.option
+                for (results, _), other in zip(outcomes, edge.vertices, strict=True):
+                    if other.value == math.inf and other not in before:
+                        before[other] = vertex, label, results if len(outcomes) > 1 else ()
+                        actions[other] = actions[vertex] + isinstance(label, Act)
+                        pending.append(other)
+        found = Stuck(deepest.pair)
+        while (step := before[deepest]) is not None:
+            deepest, label, results = step
+            found = Stuck(deepest.pair, label, results, found, found.actions + isinstance(label, Act))
+        return found
+
     def is_end(self, pair: P) -> bool:
         """Whether a plan may end there."""
         vertex = self._vertices.get(pair)
         return vertex is not None and vertex.value == 0 and vertex.edges is None
 
     def options(self, pair: P) -> Iterator[Option[P]]:
-        """The options that make the best plan, or all if there is none."""
+        """The options that make the best plan."""
         vertex = self._root if pair == self._root.pair else self._vertices[pair]
         for edge in vertex.edges or ():
             if edge.value == vertex.value:
@@ -105,9 +139,9 @@ class _Graph(Generic[P]):
 
     def _expand(self, vertex: _Vertex[P]) -> None:
         self._budget.spend()
-        vertex.edges = []
+        vertex.edges, vertex.idle = [], True
         for option in self._problem.options(vertex.pair):
-            label = option.label
+            label, vertex.idle = option.label, False
             weight = self._weigh(vertex.pair, label) if isinstance(label, Act) else 0
             if not self._allows(vertex.weight + weight):
                 continue

@@ -35,6 +35,11 @@ class Fork(NamedTuple):
     outcomes: list[Outcome]
 
 
+def may_branch(dynamics: Dynamics) -> bool:
+    """Whether an action of the theory may tell something that is not known, so that plans depend on it."""
+    return dynamics.compiler.uncertain and any(action.senses for action in dynamics.theory.actions.values())
+
+
 class Ahead(Machine):
     """Answers what a program can do in a state when it is only thought through.
 
@@ -47,8 +52,7 @@ class Ahead(Machine):
 
     def __init__(self, dynamics: Dynamics, program: Program, conformant: bool = False) -> None:
         super().__init__(dynamics, program)
-        told = any(action.senses for action in dynamics.theory.actions.values())
-        self.senses = dynamics.compiler.uncertain and told and not conformant
+        self.senses = may_branch(dynamics) and not conformant
         self._events = Events(dynamics)
         self._prunes = Prunes(dynamics)
 

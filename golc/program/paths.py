@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Iterator
+from collections.abc import Callable, Hashable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol, TypeAlias, TypeVar
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from golc.program.ahead import Ahead
 
 Key = TypeVar("Key", bound=Hashable)
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
@@ -41,6 +42,11 @@ class Path:
     def rest(self, index: int) -> Request:
         """What is wanted of a way from the place that so many steps have led to."""
         return self.request.after(self.actions(index))
+
+    @property
+    def ways(self) -> list[Path]:
+        """How it may go on."""
+        return [branch.path for branch in self.branches]
 
     def continued(self, way: Path) -> Path:
         """A branch of this way, for the same request."""
@@ -102,16 +108,15 @@ def joined(start: Key, run: Callable[[Key], Run[Key] | None]) -> Path | None:
     return paths[start]
 
 
-def bottom_up(path: Path) -> Iterator[Path]:
-    """Each path that a path consists of, once, after those that it branches into; no recursion, the depth is the
-    plan's."""
-    stack, seen = [path], set[Path]()
+def bottom_up(top: T, parts: Callable[[T], Sequence[T]]) -> Iterator[T]:
+    """Everything that something consists of, each object once, after its parts; no recursion, for plans are deep."""
+    stack, seen = [top], set[int]()
     while stack:
-        top = stack[-1]
-        missing = [branch.path for branch in top.branches if branch.path not in seen]
+        last = stack[-1]
+        missing = [part for part in parts(last) if id(part) not in seen]
         stack.extend(reversed(missing))
         if not missing:
             stack.pop()
-            if top not in seen:
-                seen.add(top)
-                yield top
+            if id(last) not in seen:
+                seen.add(id(last))
+                yield last
