@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from golc.planning.goals import GoalPlanning
     from golc.planning.planner import Planning
     from golc.planning.plans import Outcome
+    from golc.theory.types import Number
 
 DONE, NO_PLAN, GAVE_UP = 0, 1, 3
 EVERY = 10**12
@@ -142,7 +143,7 @@ def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
         raise click.FileError(output, error.strerror or str(error)) from None
 
 
-def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: int | None) -> None:
+def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: Number | None) -> None:
     if not outcome.plans:
         verdict = outcome.gave_up or f"proven: {outcome.proof}"
         console.err(f"no plan for `{program}`: {verdict}")

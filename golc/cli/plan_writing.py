@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 from golc.planning.plans import Outcome, Plan, Step, answers
 from golc.program.labels import Act
 from golc.program.paths import bottom_up
-from golc.theory.types import writable
+from golc.theory.types import Number, writable
 
 Write: TypeAlias = Callable[[str], None]
 
@@ -69,7 +69,7 @@ class Json(Listing):
     def __init__(self, write: Write, numbered: bool) -> None:
         super().__init__(write, numbered)
         self._plans: list[Any] = []
-        self._cost: int | None = None
+        self._cost: Number | None = None
 
     def add(self, plan: Plan) -> None:
         self._cost = plan.cost

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Hashable, Iterable, Iterator
+from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
@@ -112,23 +112,26 @@ class _Open(Generic[P]):
             self.stuck = Stuck(self.pair, option.label, results, stuck, actions)
 
 
-def first(problem: Problem[P], start: P, budget: Budget) -> Solved[P] | Stuck[P] | None:
+def first(
+    problem: Problem[P], start: P, budget: Budget, place: Callable[[P], Hashable] = lambda pair: pair
+) -> Solved[P] | Stuck[P] | None:
     """The first plan with at least one step that ends in every outcome, options in their order; otherwise why there is
     none (nothing, if every way leads back to itself or is cut off by the bound on steps).
 
-    Raises ``LimitError`` at a limit.
+    ``place``: what must not be met again on a way. Raises ``LimitError`` at a limit.
     """
-    return _Search(problem, budget).run(start)
+    return _Search(problem, budget, place).run(start)
 
 
 class _Search(Generic[P]):
     """One search: the open pairs from the start to the current one, and what is known of others."""
 
-    def __init__(self, problem: Problem[P], budget: Budget) -> None:
+    def __init__(self, problem: Problem[P], budget: Budget, place: Callable[[P], Hashable]) -> None:
         self._problem = problem
         self._budget = budget
+        self._place = place
         self._way: list[_Open[P]] = []
-        self._depths: dict[P, int] = {}
+        self._depths: dict[Hashable, int] = {}
         self._solved: dict[P, Solved[P]] = {}
         self._failed: dict[P, _Failure[P]] = {}
         self._tentative: list[_Failure[P]] = []
@@ -154,7 +157,7 @@ class _Search(Generic[P]):
     def _enter(self, pair: P, actions: int, quiet: int) -> None:
         self._budget.spend()
         if self._way or not self._problem.is_end(pair):  # a start that is an end may be come back to
-            self._depths[pair] = len(self._way)
+            self._depths[self._place(pair)] = len(self._way)
         options = iter(self._problem.options(pair))
         self._way.append(_Open(pair, actions, quiet, len(self._tentative), options))
 
@@ -180,8 +183,8 @@ class _Search(Generic[P]):
             top.ways.append(solved)
         elif failure is not None and (failure.actions <= actions or not bounded):
             top.fail(self._low(failure), failure.stuck)
-        elif pair in self._depths:
-            top.fail(self._depths[pair], None)
+        elif (depth := self._depths.get(self._place(pair))) is not None:
+            top.fail(depth, None)
         else:
             self._enter(pair, actions, quiet)
 
@@ -189,7 +192,7 @@ class _Search(Generic[P]):
         """The plan from a pair that has been reached with so many actions, if it is known and within the bound."""
         solved = self._solved.get(pair)
         if solved is None:
-            if pair in self._failed or pair in self._depths or not self._problem.is_end(pair):
+            if pair in self._failed or self._place(pair) in self._depths or not self._problem.is_end(pair):
                 return None
             self._solved[pair] = solved = Solved(pair)
         bound = self._budget.limits.steps
@@ -206,7 +209,7 @@ class _Search(Generic[P]):
         """Close the last pair of the way: its plan, or why there is none and the ``low`` of this failure."""
         depth = len(self._way) - 1
         self._way.pop()
-        self._depths.pop(top.pair, None)
+        self._depths.pop(self._place(top.pair), None)
         if top.option is not None:
             actions = isinstance(top.option.label, Act) + max(way.actions for way in top.ways)
             solved = Solved(top.pair, top.option, tuple(top.ways), actions)

@@ -11,6 +11,7 @@ from golc.program.nodes import Node
 from golc.program.paths import Path, bottom_up
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
+from golc.theory.types import Number
 
 
 def find(machine: Ahead, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:
@@ -20,15 +21,15 @@ def find(machine: Ahead, node: Node, state: State, budget: Budget, dead_end: Dea
     ``dead_end`` is told where the search got stuck.
     """
 
-    def weigh(before: State, action: Act) -> int:
+    def weigh(before: State, action: Act) -> Number:
         return machine.dynamics.cost(before, action.action, action.args)
 
     return layers.find(machine, node, state, budget, weigh, dead_end)
 
 
-def cost(dynamics: Dynamics, path: Path) -> int:
+def cost(dynamics: Dynamics, path: Path) -> Number:
     """The sum of the costs of a path's actions; where it branches, in the dearest branch."""
-    costs: dict[Path, int] = {}
+    costs: dict[Path, Number] = {}
     for part in bottom_up(path, lambda part: part.ways):
         steps = zip(part.states, part.labels, strict=False)
         own = sum(dynamics.cost(before, act.action, act.args) for before, act in steps if isinstance(act, Act))

@@ -18,6 +18,7 @@ from golc.program.paths import Path, Run, joined
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
 from golc.theory.statements import Strategy
+from golc.theory.types import Number
 
 Pair: TypeAlias = tuple[Node, State]
 Counted: TypeAlias = tuple[Pair, int]
@@ -83,33 +84,32 @@ def find(
     ``LimitError`` at a limit; ``dead_end`` is told where the search got stuck.
     """
 
-    def cost(pair: Pair, act: Act) -> int:
+    def cost(pair: Pair, act: Act) -> Number:
         return dynamics.cost(pair[1], act.action, act.args)
 
-    def cost_then_actions(pair: Counted, act: Act) -> int:
-        assert steps is not None
-        return cost(pair[0], act) * (steps + 1) + 1
-
-    steps = budget.limits.steps
-    if strategy is Strategy.CHEAPEST and steps is not None:
-        counted: Problem[Counted] = _Counted(problem, budget)
-        dear = worst_case.find(counted, (start, 0), budget, cost_then_actions, _always)
-        return _way(dear, lambda pair: pair[0], dynamics, dead_end)
+    if strategy is Strategy.CHEAPEST and budget.limits.steps is not None:
+        counted = _Counted(problem, budget)
+        dear = worst_case.find(counted, (start, 0), budget, lambda pair, act: cost(pair[0], act), _always, _uncounted)
+        return _way(dear, _uncounted, dynamics, dead_end)
     match strategy:
         case Strategy.FIRST:
             found = and_or.first(problem, start, budget)
         case Strategy.SHORTEST:
-            found = worst_case.find(problem, start, budget, _one, budget.allows)
+            found = worst_case.find(problem, start, budget, _one, lambda weight: budget.allows(int(weight)))
         case Strategy.CHEAPEST:
             found = worst_case.find(problem, start, budget, cost, _always)
     return _way(found, lambda pair: pair, dynamics, dead_end)
+
+
+def _uncounted(pair: Counted) -> Pair:
+    return pair[0]
 
 
 def _one(pair: Pair, act: Act) -> int:
     return 1
 
 
-def _always(weight: int) -> bool:
+def _always(weight: Number) -> bool:
     return True
 
 

@@ -11,7 +11,7 @@ from golc.program.paths import Path, bottom_up
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
 from golc.theory.terms import FluentTerm
-from golc.theory.types import Unknown, Value, show, show_call
+from golc.theory.types import Number, Unknown, Value, show, show_call
 
 Step: TypeAlias = Act | Expect
 """A step of a plan: something to be done, or something that is expected to happen."""
@@ -28,7 +28,7 @@ class Plan:
     steps: tuple[Step, ...]
     senses: tuple[str, ...] = ()
     cases: tuple[Case, ...] = ()
-    cost: int | None = None
+    cost: Number | None = None
 
     @property
     def actions(self) -> tuple[Act, ...]:
@@ -49,7 +49,7 @@ class Case:
     plan: Plan
 
 
-def plan_of(path: Path, dynamics: Dynamics, cost: int | None = None) -> Plan:
+def plan_of(path: Path, dynamics: Dynamics, cost: Number | None = None) -> Plan:
     """A path as a plan; paths that are one object become one plan."""
     plans: dict[Path, Plan] = {}
     for part in bottom_up(path, lambda part: part.ways):

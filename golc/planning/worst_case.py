@@ -10,7 +10,7 @@ Of the options that attain the values, the first in their order make the plan.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import dataclass, field
 from heapq import heappop, heappush
 from itertools import count
@@ -20,9 +20,9 @@ from golc.planning.and_or import Option, P, Problem, Solved, Stuck, first
 from golc.planning.limits import Budget
 from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Act, Foreseen
-from golc.theory.types import Value
+from golc.theory.types import Number, Value
 
-Weigh: TypeAlias = Callable[[P, Act], int]
+Weigh: TypeAlias = Callable[[P, Act], Number]
 """What an action adds to the weight of a branch, given the pair before it; at least 0."""
 
 
@@ -36,9 +36,9 @@ class _Vertex(Generic[P]):
     """
 
     pair: P
-    weight: int
+    weight: Number
     quiet: int
-    value: float = math.inf
+    value: Number | float = math.inf
     edges: list[_Edge[P]] | None = None
     idle: bool = False
     parents: list[_Vertex[P]] = field(default_factory=list)
@@ -49,25 +49,30 @@ class _Edge(Generic[P]):
     """An option, what it weighs, and the vertices of its outcomes."""
 
     option: Option[P]
-    weight: int
+    weight: Number
     vertices: tuple[_Vertex[P], ...]
 
     @property
-    def value(self) -> float:
+    def value(self) -> Number | float:
         """The least weight of a plan that begins with it."""
         return self.weight + max([vertex.value for vertex in self.vertices])
 
 
 def find(
-    problem: Problem[P], start: P, budget: Budget, weigh: Weigh[P], allows: Callable[[int], bool]
+    problem: Problem[P],
+    start: P,
+    budget: Budget,
+    weigh: Weigh[P],
+    allows: Callable[[Number], bool],
+    place: Callable[[P], Hashable] = lambda pair: pair,
 ) -> Solved[P] | Stuck[P] | None:
     """The first of the lightest plans with at least one step; otherwise the longest way to where there is none.
 
-    ``allows``: whether a branch may weigh so much. Raises ``LimitError`` at a limit.
+    ``allows``: whether a branch may weigh so much; ``place``: see ``and_or.first``. Raises ``LimitError`` at a limit.
     """
     graph = _Graph(problem, start, budget, weigh, allows)
     graph.explore()
-    return first(graph, start, Budget()) if graph.is_solved else graph.stuck()
+    return first(graph, start, Budget(), place) if graph.is_solved else graph.stuck()
 
 
 _Step: TypeAlias = tuple[_Vertex[P], Foreseen, tuple[Value, ...]]
@@ -78,7 +83,7 @@ class _Graph(Generic[P]):
     """What has been explored; as a problem, its options are those that attain the values."""
 
     def __init__(
-        self, problem: Problem[P], start: P, budget: Budget, weigh: Weigh[P], allows: Callable[[int], bool]
+        self, problem: Problem[P], start: P, budget: Budget, weigh: Weigh[P], allows: Callable[[Number], bool]
     ) -> None:
         self._problem = problem
         self._budget = budget
@@ -87,7 +92,7 @@ class _Graph(Generic[P]):
         self._root = _Vertex(start, 0, 0)
         self._vertices: dict[P, _Vertex[P]] = {} if problem.is_end(start) else {start: self._root}
         self._number = count()
-        self._heap = [(0, next(self._number), self._root)]
+        self._heap: list[tuple[Number, int, _Vertex[P]]] = [(0, next(self._number), self._root)]
 
     def explore(self) -> None:
         """Expand what can be a part of the best plan."""
@@ -153,7 +158,7 @@ class _Graph(Generic[P]):
                 other.parents.append(vertex)
             vertex.edges.append(_Edge(option, weight, tuple(reached)))
 
-    def _reached(self, pair: P, weight: int, quiet: int) -> _Vertex[P]:
+    def _reached(self, pair: P, weight: Number, quiet: int) -> _Vertex[P]:
         """The vertex of a pair, on the heap if it is to be expanded and was not reached with less weight."""
         vertex = self._vertices.get(pair)
         if vertex is None:

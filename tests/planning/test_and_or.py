@@ -52,7 +52,9 @@ def first(graph: Graph, start: str = "s", steps: int | None = None) -> str:
 
 def lightest(graph: Graph, start: str = "s", steps: int | None = None) -> str:
     budget = Budget(Limits(steps=steps))
-    return spell(worst_case.find(Drawn(graph), start, budget, lambda pair, act: 1, budget.allows))
+    return spell(
+        worst_case.find(Drawn(graph), start, budget, lambda pair, act: 1, lambda weight: budget.allows(int(weight)))
+    )
 
 
 def test_every_outcome_needs_a_way() -> None:
@@ -249,7 +251,7 @@ def test_a_bound_is_kept_and_hides_no_plan(graph: Graph, steps: int) -> None:
     budget = Budget(Limits(steps=steps))
     for found in (
         and_or.first(Drawn(graph), "s", budget),
-        worst_case.find(Drawn(graph), "s", budget, lambda pair, act: 1, budget.allows),
+        worst_case.find(Drawn(graph), "s", budget, lambda pair, act: 1, lambda weight: budget.allows(int(weight))),
     ):
         assert isinstance(found, Solved) == (least <= steps)
         assert not isinstance(found, Solved) or weight(found) <= steps
