@@ -6,8 +6,9 @@ so that no answer here gets slower with time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from golc.diagnostics import Span
@@ -71,10 +72,10 @@ class Dynamics:
         self._sense = _Lazy(self._compile_sense)
         self._cost = _Lazy(self._compile_cost)
 
-    def initial(self) -> State:
-        """The initial state."""
+    def initial(self, given: Mapping[int, Value] = MappingProxyType({})) -> State:
+        """The initial state; ``given`` are values of slots that replace those of the theory."""
         with deep_recursion(EVALUATION):
-            return initial_state(self.interpreter)
+            return initial_state(self.interpreter, given)
 
     def possible(self, state: State, action: str, args: Args) -> bool:
         """Whether the action's preconditions are known to hold."""
@@ -172,7 +173,8 @@ class Dynamics:
 
     def value(self, state: State, fluent: str, args: Args = ()) -> Value:
         """The value of a ground fluent; an ``Unknown`` if the worlds disagree."""
-        return shown(state)[self.layout.places[fluent].slot(args)]
+        place = self.layout.places[fluent]
+        return arranged(shown(state)[place.slot(args)], place.fluent.type)
 
     def values(self, state: State) -> Iterator[tuple[tuple[str, Args], Value]]:
         """Each ground fluent, as name and arguments, with its value or an ``Unknown``, as they are to be written."""

@@ -64,12 +64,16 @@ def elements(collection: Value, type_: Type) -> Sequence[Value]:
 
 
 def arranged(value: Value, type_: Type) -> Value:
-    """A value of a type as it is to be written: an equal one that knows the order of sets, and what are strings."""
+    """A value of a type as it is to be written: an equal one that knows the order of sets, and what are strings.
+
+    What is not known has its possible values in order.
+    """
     if value is None or isinstance(value, int | str):
         return value
     whole = type_.base if isinstance(type_, Optional) else type_
     if isinstance(value, Unknown):
-        return Unknown(tuple([arranged(each, type_) for each in value.values]))
+        values = sorted(cast(Iterable[Any], value.values), key=sort_key(type_))
+        return Unknown(tuple([arranged(each, type_) for each in values]))
     if not isinstance(whole, Collection) or value not in whole:
         return value
     parts = [_beside(part, whole.element) for part in elements(value, whole)]

@@ -178,11 +178,10 @@ def test_a_quantifier_stops_at_what_decides() -> None:
         (None, Optional(Collection("list", STRING)), "none", None),
         ("a b", STRING, "a b", "a b"),
         (frozenset({1, "outside"}), Collection("set", COLOUR), "{1, outside}", [1, "outside"]),
-        (Unknown((frozenset({"green", "red"}), frozenset())), Collection("set", COLOUR), "{red, green} or {}", None),
+        (Unknown((frozenset({"green", "red"}), frozenset())), Collection("set", COLOUR), "{} or {red, green}", None),
     ],
 )
 def test_what_is_written_knows_its_order_and_its_strings(written: Value, type_: Type, text: str, json: object) -> None:
     found = arranged(written, type_)
-    assert found == written
     assert show(found) == text
-    assert isinstance(written, Unknown) or writable(found) == json
+    assert isinstance(written, Unknown) or (found == written and writable(found) == json)
