@@ -13,7 +13,7 @@ from golc.situation.knowing import who_senses
 from golc.situation.worlds import State
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Operation, Operator, Term
-from golc.theory.types import Value, show
+from golc.theory.types import Value, show, show_call
 
 if TYPE_CHECKING:
     from golc.program.paths import NoPath, Path
@@ -152,7 +152,7 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
 def pruned(span: Span, prune: str, label: Act | Expect, results: tuple[Value, ...] = ()) -> Blocked:
     """An action is possible and leads, where it has these results, to a situation that look-ahead does not enter."""
     answer = f" where it answers {', '.join(map(show, results))}" if results else ""
-    return Blocked(span, f"`{label}` is pruned by `{prune}`{answer}")
+    return Blocked(span, f"`{show_call(label.action, label.args)}` is pruned by `{prune}`{answer}")
 
 
 def _how_far(none: NoPath) -> str:
