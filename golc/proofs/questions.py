@@ -24,7 +24,7 @@ from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import INT, Interval, Type, Value, show, show_call
 
-MOST_CASES = 4_000
+MOST_CASES = 1000
 """How many cases of one question are gone through."""
 
 MORE_CASES = 500

@@ -14,10 +14,12 @@ from typing import Any, NamedTuple
 
 from golc.situation import collections, guards
 from golc.situation.collections import known_value, listed
+from golc.situation.happened import before
 from golc.situation.layout import Layout, Place
 from golc.situation.worlds import ASK
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
+    Before,
     Binder,
     Choice,
     Comprehension,
@@ -38,7 +40,7 @@ from golc.theory.terms import (
     subterms,
 )
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
-from golc.theory.types import Collection, Interval, Type, Value, number
+from golc.theory.types import Interval, Type, Value, number
 
 FORMULA = "a formula"
 """What a formula is called where it is `none`."""
@@ -177,6 +179,9 @@ class Compiler:
             case Epistemic(kind=kind, body=body):
                 function, names = self._function_of(body, cells)
                 return f"{self.bind('ask', self._ask[kind])}({', '.join([function, *names])})"
+            case Before(body=body):
+                function, names = self._function_of(body, cells)
+                return f"{self.bind('before', before)}({', '.join([function, *names])})"
             case _:
                 raise AssertionError(term)
 
@@ -190,11 +195,11 @@ class Compiler:
                 continue
             text = self.expression(arg, cells, depth)
             if isinstance(type_, Interval):
-                if not fits(arg.type, type_):
+                if not includes(type_, arg.type):
                     failure = guards.argument_failure(arg, place.fluent.name, type_)
                     text = f"{self.bind('check', guards.check(type_, failure))}({text})"
                 constant -= stride * type_.low
-            elif not fits(arg.type, type_):
+            elif not includes(type_, arg.type):
                 check = guards.Positions(place.positions[index], arg, place.fluent.name, type_)
                 text = f"{self.bind('position', check)}[{text}]"
             else:
@@ -210,7 +215,7 @@ class Compiler:
         """An expression for a term that fails unless its value belongs to a type."""
         text = self.expression(term, cells, depth)
         known, value = known_value(term, cells)
-        if fits(term.type, type_) or (known and value in type_):
+        if includes(type_, term.type) or (known and value in type_):
             return text
         return f"{self.bind('check', guards.check(type_, failure))}({text})"
 
@@ -394,16 +399,6 @@ def environment(depth: int) -> Cells:
 def variables(count: int) -> Cells:
     """The cells of parameters: Python variables of their own."""
     return tuple(Cell(f"v{level}") for level in range(count))
-
-
-def fits(inner: Type, outer: Type) -> bool:
-    """Whether the types alone prove that every value of the one belongs to the other."""
-    if inner.finite:
-        return includes(outer, inner)
-    if not inner.kinds <= outer.kinds or outer.finite:
-        return False
-    part, whole = strip_optional(inner), strip_optional(outer)
-    return not isinstance(part, Collection) or not isinstance(whole, Collection) or fits(part.element, whole.element)
 
 
 def leaves_open(theory: BasicActionTheory) -> bool:
