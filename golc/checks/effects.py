@@ -48,6 +48,7 @@ def _is_ever_possible(action: Action, obligations: Obligations) -> bool:
     if obligations.is_impossible(Question(action.parameters, steps), what, span):
         message = f"`{action.name}` can never be possible"
         obligations.warning(Code.NEVER_POSSIBLE, message, span, "false in every situation")
+        obligations.never_possible.add(action.name)
         return False
     return True
 

@@ -84,7 +84,7 @@ class Flow:
                 return self._perform(statement, place)
             case st.Test(condition=condition):
                 self._constant(condition, place, "this test", only=False)
-                return place.knowing(place.asked(condition))
+                return self._later(place.knowing(place.asked(condition)))
             case st.WaitUntil(condition=condition):
                 return self._later(place, self._exogenous | place.others).knowing(place.asked(condition))
             case st.Wait() | st.WaitTime() | st.Say():
@@ -135,7 +135,7 @@ class Flow:
     def _perform(self, statement: st.Perform, place: Place) -> Place:
         action = self._theory.actions[statement.action]
         possible = place.asked(PossTerm(statement.action, statement.args, type=BOOL, span=statement.span))
-        if action.preconditions:
+        if action.preconditions and action.name not in self._obligations.never_possible:
             here = (*place.guards, *place.known)
             what = f"whether `{statement.span.text}` is ever possible here"
             if here and self._never(place, (*here, possible), what, statement.span):

@@ -22,6 +22,8 @@ class Obligations:
     findings: Findings
     asked: int = 0
     undecided: int = 0
+    never_possible: set[str] = field(default_factory=set)
+    """The actions that are proven never to be possible."""
     _told: set[tuple[Code, int, int]] = field(default_factory=set)
 
     def witness(self, question: Question, what: str, span: Span) -> Witness | None:

@@ -7,6 +7,7 @@ tells apart, and a case says which fluents the answer depends on: all others may
 
 from __future__ import annotations
 
+import random
 from collections.abc import Callable, Iterator, Sequence
 from typing import TypeAlias, TypeVar
 
@@ -20,22 +21,28 @@ Domain: TypeAlias = Sequence[Value] | Range | None
 
 
 class Case:
-    """A situation as far as it is decided: ``cells`` are the slots that were read."""
+    """A situation as far as it is decided: ``cells`` are the slots that were read.
 
-    def __init__(self, domains: Sequence[Domain], decisions: list[tuple[int, int]]) -> None:
+    What is not among the ``decisions`` goes the first way, or any by ``chance``.
+    """
+
+    def __init__(
+        self, domains: Sequence[Domain], decisions: list[tuple[int, int]], chance: random.Random | None = None
+    ) -> None:
         self.cells: dict[int, Value] = {}
         self.decisions = decisions
         """What was decided so far, in order: which way, of how many."""
         self._domains = domains
         self._ranges: dict[int, Range] = {}
         self._next = 0
+        self._chance = chance
 
     def choose(self, ways: int) -> int:
         """Decide which of several ways things are."""
         if ways == 1:
             return 0
         if self._next == len(self.decisions):
-            self.decisions.append((0, ways))
+            self.decisions.append((0 if self._chance is None else self._chance.randrange(ways), ways))
         self._next += 1
         return self.decisions[self._next - 1][0]
 
@@ -105,3 +112,11 @@ def explore(domains: Sequence[Domain], ask: Callable[[Case], T]) -> Iterator[tup
             return
         way, ways = decisions[-1]
         decisions[-1] = (way + 1, ways)
+
+
+def sample(domains: Sequence[Domain], ask: Callable[[Case], T], seed: int) -> Iterator[tuple[Case, T]]:
+    """What ``ask`` answers in cases by chance, without end; the same ones for the same seed."""
+    chance = random.Random(seed)
+    while True:
+        case = Case(domains, [], chance)
+        yield case, ask(case)

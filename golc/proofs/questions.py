@@ -7,13 +7,12 @@ invariants hold, whether or not they can be reached.
 from __future__ import annotations
 
 import itertools
-import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeAlias
 
 from golc.diagnostics import ProgramError
-from golc.proofs.cases import Case, Domain, explore
+from golc.proofs.cases import Case, Domain, explore, sample
 from golc.proofs.symbols import MOST_CONCRETE, NotDecidedError, Range
 from golc.situation.branching import Clause, Options
 from golc.situation.compile import Cell, Compiler
@@ -24,7 +23,10 @@ from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import INT, Interval, Type, Value, show, show_call
 
-MOST_CASES = 1000
+IN_ORDER, BY_CHANCE = 200, 300
+"""How many cases of one question are gone through in order, and tried by chance, before all others in order."""
+
+MOST_CASES = 2_000
 """How many cases of one question are gone through."""
 
 MORE_CASES = 500
@@ -113,8 +115,6 @@ class Prover:
     theory: BasicActionTheory
     layout: Layout = field(init=False)
     compiler: Compiler = field(init=False)
-    deadline: float = float("inf")
-    """When to give up, by ``time.monotonic``."""
 
     def __post_init__(self) -> None:
         self.layout = Layout(self.theory)
@@ -132,10 +132,10 @@ class Prover:
         last = MOST_CASES
         undecided = None
         try:
-            for number, (case, found) in enumerate(explore(domains, lambda case: self._ask(question, case))):
+            for number, (case, found) in enumerate(self._cases(question, domains)):
                 if found and (best is None or len(case.cells) < len(best.cells)):
                     best, last = case, min(last, number + MORE_CASES)
-                if number >= last or time.monotonic() > self.deadline:
+                if number >= last:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
         except NotDecidedError as error:
@@ -143,6 +143,20 @@ class Prover:
         if best is not None:
             return self._witness(question, domains, best)
         return undecided and self._solved(question, domains, undecided)
+
+    def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, bool]]:
+        """Whether what is asked is so, case by case; of many cases some by chance before the rest in order."""
+
+        def ask(case: Case) -> bool:
+            return self._ask(question, case)
+
+        every = explore(domains, ask)
+        yield from itertools.islice(every, IN_ORDER)
+        first = next(every, None)
+        if first is not None:
+            yield from itertools.islice(sample(domains, ask, seed=0), BY_CHANCE)
+            yield first
+            yield from every
 
     def _solved(self, question: Question, domains: list[Domain], why: Undecided) -> Witness | Undecided | None:
         """What a solver answers, if there is one; a witness of its is tried out."""
