@@ -4,7 +4,6 @@ How a page is read:
 
 - A ``golc`` block that begins with ``domain`` is a file without findings, laid out as ``golc fmt`` does it.
 - If a ``text`` block that begins with a finding follows at once, the file has exactly these findings.
-- A line that ends in ``# planned`` is answered with "not supported yet"; a file that has one has no other findings.
 - Any other ``golc`` block is a part of a file, a part of a program, or expressions, and has to parse.
 - A block with a name behind its language (``golc garden.gl``) is saved under that name for what stands below it, or
   appended to the file (``golc + garden.gl``), which then as a whole is a file without findings.
@@ -120,12 +119,7 @@ def test_domain_has_the_findings_that_the_page_shows(
     monkeypatch.chdir(tmp_path)
     save_page(block, tmp_path)
     _, found = examine(block.file)
-    planned = [number for number, line in enumerate(block.text.splitlines(), 1) if line.endswith("# planned")]
-    if planned:
-        assert sorted({finding.span.line for finding in found}) == planned
-        assert {finding.code for finding in found} == {Code.UNSUPPORTED}
-    else:
-        assert "\n\n".join(map(render, found)) == block.findings.rstrip()
+    assert "\n\n".join(map(render, found)) == block.findings.rstrip()
 
 
 def save_page(block: Block, folder: Path) -> None:
