@@ -6,24 +6,26 @@ so that no answer here gets slower with time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from golc.diagnostics import Span
 from golc.situation.beginning import initial_state
 from golc.situation.branching import Branching
-from golc.situation.compile import Cells, Compiler, fits, variables
+from golc.situation.compile import Cells, Compiler, variables
 from golc.situation.interpret import Interpreter
 from golc.situation.knowing import Knowing, placed
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
-from golc.theory.fitting import describe
+from golc.theory.fitting import describe, includes
+from golc.theory.order import arranged
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
-from golc.theory.types import Unknown, Value, show, show_call
+from golc.theory.types import Number, Unknown, Value, show, show_call
 
 Args: TypeAlias = tuple[Value, ...]
 
@@ -70,10 +72,10 @@ class Dynamics:
         self._sense = _Lazy(self._compile_sense)
         self._cost = _Lazy(self._compile_cost)
 
-    def initial(self) -> State:
-        """The initial state."""
+    def initial(self, given: Mapping[int, Value] = MappingProxyType({})) -> State:
+        """The initial state; ``given`` are values of slots that replace those of the theory."""
         with deep_recursion(EVALUATION):
-            return initial_state(self.interpreter)
+            return initial_state(self.interpreter, given)
 
     def possible(self, state: State, action: str, args: Args) -> bool:
         """Whether the action's preconditions are known to hold."""
@@ -88,13 +90,13 @@ class Dynamics:
         after: State = self._progress[action](state, *args)
         return after
 
-    def cost(self, state: State, action: str, args: Args) -> int:
+    def cost(self, state: State, action: str, args: Args) -> Number:
         """What the action costs in the situation before it: at least 0; 1 if the theory does not say.
 
         Where that is not known, the most that it may cost.
         """
         function = self._cost[action]
-        costs: Iterator[tuple[Assignment, int]] = survey(state, lambda world: function(world, *args))
+        costs: Iterator[tuple[Assignment, Number]] = survey(state, lambda world: function(world, *args))
         return max(cost for _, cost in costs)
 
     def outcomes(self, state: State, action: str, args: Args) -> list[Outcome]:
@@ -171,15 +173,23 @@ class Dynamics:
 
     def value(self, state: State, fluent: str, args: Args = ()) -> Value:
         """The value of a ground fluent; an ``Unknown`` if the worlds disagree."""
-        return shown(state)[self.layout.places[fluent].slot(args)]
+        place = self.layout.places[fluent]
+        return arranged(shown(state)[place.slot(args)], place.fluent.type)
 
     def values(self, state: State) -> Iterator[tuple[tuple[str, Args], Value]]:
-        """Each ground fluent, as name and arguments, with its value or an ``Unknown``."""
-        return zip(self.layout.ground_fluents, shown(state), strict=True)
+        """Each ground fluent, as name and arguments, with its value or an ``Unknown``, as they are to be written."""
+        fluents = self.theory.fluents
+        for (name, args), value in zip(self.layout.ground_fluents, shown(state), strict=True):
+            yield (name, args), arranged(value, fluents[name].type)
 
     def show(self, state: State) -> dict[str, Value]:
         """Each ground fluent as text with its value or an ``Unknown``."""
         return {show_call(*name): value for name, value in self.values(state)}
+
+    def call(self, action: str, args: Args) -> str:
+        """A ground action as text."""
+        parameters = self.theory.actions[action].parameters
+        return show_call(action, [arranged(arg, p.type) for arg, p in zip(args, parameters, strict=True)])
 
     def misfit(self, action: str, args: Args) -> str | None:
         """What is wrong with the arguments of a ground action, or none: their number or their types."""
@@ -206,18 +216,18 @@ class Dynamics:
         terms = "".join(f"{self.compiler.expression(term, cells)}, " for term in action.senses)
         return self.compiler.function(_signature(cells), [f"return ({terms})"])
 
-    def _compile_cost(self, name: str) -> Callable[..., int]:
+    def _compile_cost(self, name: str) -> Callable[..., Number]:
         action = self.theory.actions[name]
         cells = variables(len(action.parameters))
         if action.cost is None:
             return self.compiler.function(_signature(cells), ["return 1"])
         span = action.cost.span
 
-        def negative(cost: int, *args: Value) -> None:
+        def negative(cost: Number, *args: Value) -> None:
             raise errors.negative_cost(span, show_call(name, args), cost)
 
         call = f"{self.compiler.bind('negative', negative)}(c{''.join(f', {cell.text}' for cell in cells)})"
-        lines = [f"c = {self.compiler.expression(action.cost, cells)}", f"if c < 0: {call}", "return c"]
+        lines = [f"c = {self.compiler.some(action.cost, cells, 0, 'a cost')}", f"if c < 0: {call}", "return c"]
         return self.compiler.function(_signature(cells), lines)
 
     def _compile_progress(self, name: str) -> Callable[..., State]:
@@ -257,7 +267,7 @@ class Dynamics:
                 indent += "  "
             for condition in (effect.where, effect.condition):
                 if condition is not None:
-                    lines.append(f"{indent}if {self.compiler.expression(condition, inner)}:")
+                    lines.append(f"{indent}if {self.compiler.formula(condition, inner)}:")
                     indent += "  "
             lines += [indent + line for line in self._assignment(effect, inner, collect)]
         return lines
@@ -267,7 +277,7 @@ class Dynamics:
         slot = self.compiler.slot(place, effect.args, cells)
         assert not isinstance(effect.value, Choice)
         lines = [f"i = {slot}", f"x = {self.compiler.expression(effect.value, cells)}"]
-        if not fits(effect.value.type, place.fluent.type):
+        if not includes(place.fluent.type, effect.value.type):
             values = self.compiler.bind("type", place.fluent.type)
             lines.append(f"if x not in {values}: {self.compiler.bind('outside', self._outside(effect))}(i, x)")
         if not collect:

@@ -12,12 +12,14 @@ from contextlib import contextmanager
 from typing import Any, TypeAlias
 
 from golc.diagnostics import NOWHERE
-from golc.situation.compile import Compiler
+from golc.situation.compile import FORMULA, Compiler
 from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
 from golc.theory import errors
 from golc.theory.evaluate import Env
-from golc.theory.terms import Binder, DefinedTerm, FluentTerm, PossTerm, StaticTerm, Term, Variable, subterms
+from golc.theory.order import arranged
+from golc.theory.reading import fluents_read
+from golc.theory.terms import Binder, DefinedTerm, FluentTerm, StaticTerm, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import Unknown, Value, show, show_call
 
@@ -35,17 +37,17 @@ class Knowing:
 
     def condition(self, term: Term, depth: int) -> Asked:
         """Whether a formula is known to be true: a function of a state and an environment of ``depth`` variables."""
-        return self.known_true(self.compiler.term(term, depth), (term,))
+        return self.known_true(self.compiler.term(term, depth, FORMULA), (term,))
 
     def refuted(self, term: Term, depth: int) -> Asked:
         """Whether a formula is known to be false, as for ``condition``."""
-        function = self.compiler.term(term, depth)
+        function = self.compiler.term(term, depth, FORMULA)
         return self.known_true(lambda world, env: not function(world, env), (term,))
 
-    def settled(self, term: Term, depth: int) -> Asked:
+    def settled(self, term: Term, depth: int, what: str | None = None) -> Asked:
         """The value of a term, or whether a formula is true; if worlds disagree, the function raises
-        ``UndecidedError``."""
-        return self._settled(self.compiler.term(term, depth), term)
+        ``UndecidedError``. ``what`` as for ``Compiler.term``."""
+        return self._settled(self.compiler.term(term, depth, what), term)
 
     def arguments(self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int) -> Asked:
         """The values of the arguments of something, as for ``settled``."""
@@ -53,11 +55,14 @@ class Knowing:
         return self._settled(function, *args)
 
     def shown(self, term: Term, depth: int) -> Asked:
-        """The value of a term, or an ``Unknown``: for a message."""
+        """The value of a term, or an ``Unknown``, as it is to be written in a message."""
         function = self.compiler.term(term, depth)
-        if not self.compiler.uncertain:
-            return function
-        return lambda state, env: agreed(answer for _, answer in survey(state, lambda world: function(world, env)))
+
+        def asked(state: State, env: Env) -> Value:
+            answers = (answer for _, answer in survey(state, lambda world: function(world, env)))
+            return arranged(agreed(answers), term.type)
+
+        return asked
 
     def known_true(self, function: Asked, terms: Sequence[Term]) -> Asked:
         """Whether what a compiled function of some formulas answers is true in all worlds."""
@@ -112,39 +117,19 @@ class Knowing:
                 continue
             match part:
                 case Variable(name=name, level=level):
-                    values[name] = env[level]
+                    values[name] = arranged(env[level], part.type)
                 case FluentTerm(fluent=name, args=args) | DefinedTerm(definition=name, args=args):
                     of = tuple(self.evaluate(arg, state, env) for arg in args)
-                    values[show_call(name, of)] = self.evaluate(part, state, env)
+                    values[show_call(name, of)] = arranged(self.evaluate(part, state, env), part.type)
                 case StaticTerm():
                     continue
         return values
 
     def sensing(self, term: Term) -> list[str]:
         """The primitive actions that sense something that a term depends on."""
-        fluents = self._depends_on(term)
-        return [
-            action.name
-            for action in self.theory.actions.values()
-            if any(fluents & self._depends_on(sensed) for sensed in action.senses)
-        ]
-
-    def _depends_on(self, term: Term) -> set[str]:
-        fluents: set[str] = set()
-        seen: set[str] = set()
-        stack = [term]
-        while stack:
-            for part in subterms(stack.pop()):
-                match part:
-                    case FluentTerm(fluent=name):
-                        fluents.add(name)
-                    case DefinedTerm(definition=name) if name not in seen:
-                        seen.add(name)
-                        stack.append(self.theory.definitions[name].body)
-                    case PossTerm(action=name) if f"{name}()" not in seen:
-                        seen.add(f"{name}()")
-                        stack.extend(self.theory.actions[name].preconditions)
-        return fluents
+        fluents = fluents_read(self.theory, [term])
+        actions = self.theory.actions.values()
+        return [action.name for action in actions if fluents & fluents_read(self.theory, action.senses)]
 
     def _listed(self, function: Asked) -> Asked:
         return lambda state, env: tuple(function(state, env))

@@ -16,6 +16,8 @@ from typing import Any, Literal, TypeAlias, cast, overload
 
 Value: TypeAlias = Hashable
 
+Number: TypeAlias = int | Fraction
+
 
 @dataclass(frozen=True)
 class Type:
@@ -215,6 +217,23 @@ class Unknown:
     values: tuple[Value, ...]
 
 
+class InOrder(frozenset[Value]):
+    """A set to be written, with its elements in the order in which they are."""
+
+    order: tuple[Value, ...] = ()
+
+    @classmethod
+    def of(cls, order: Iterable[Value]) -> InOrder:
+        """The set of some elements."""
+        made = cls(order := tuple(order))
+        made.order = order
+        return made
+
+
+class Quoted(str):
+    """A string to be written in quotes."""
+
+
 NONE = Optional(Enumeration(()))
 """The type of ``none`` alone."""
 
@@ -245,10 +264,12 @@ def show(value: Value) -> str:
             return "true" if value else "false"
         case int() if value.bit_length() > MOST_BITS:
             return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
+        case Fraction(denominator=1):
+            return show(value.numerator)
         case Fraction():
             return _decimal(value) if value.denominator > 1 else show(value.numerator)
         case frozenset():
-            return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
+            return "{" + ", ".join(map(_part, _in_order(value))) + "}"
         case tuple():
             return "[" + ", ".join(map(_part, value)) + "]"
         case _:
@@ -278,14 +299,18 @@ def _decimal(value: Fraction) -> str:
 
 
 def _part(value: Value) -> str:
-    """A value beside others: there a string that is no single word stands in quotes."""
-    if isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value):
+    """A value beside others: there a string that is no single word, or known to be no symbol, stands in quotes."""
+    if isinstance(value, Quoted) or (isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value)):
         return '"' + value.translate(ESCAPED) + '"'
     return show(value)
 
 
-def _rank(value: Value) -> tuple[int, Any]:
-    """What brings the elements of a set into an order where their type is not at hand."""
+def _in_order(value: frozenset[Value]) -> Iterable[Value]:
+    return value.order if isinstance(value, InOrder) else sorted(value, key=rank)
+
+
+def rank(value: Value) -> tuple[int, Any]:
+    """A key for values of any types: what brings the elements of a set into an order where their type says none."""
     match value:
         case None:
             return 0, 0
@@ -294,9 +319,9 @@ def _rank(value: Value) -> tuple[int, Any]:
         case int() | Fraction():
             return 2, value
         case frozenset():
-            return 4, sorted(map(_rank, value))
+            return 4, sorted(map(rank, value))
         case tuple():
-            return 5, tuple(map(_rank, value))
+            return 5, tuple(map(rank, value))
         case _:
             return 3, value
 
@@ -311,7 +336,7 @@ def writable(thing: object) -> object:
         case list() | tuple():
             return [writable(part) for part in thing]
         case frozenset():
-            return [writable(part) for part in sorted(thing, key=_rank)]
+            return [writable(part) for part in _in_order(thing)]
         case Fraction():
             return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
