@@ -28,6 +28,8 @@ from golc.loading import examine
 from golc.rendering import render
 from golc.syntax.format import formatted
 from golc.syntax.parse import parse_expression, parse_file
+from golc.theory.declare import BUILTIN_TYPES, FUNCTIONS
+from golc.theory.elaborate_actions import SOURCES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -233,3 +235,12 @@ def test_every_code_is_listed() -> None:
     page = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
     listed = re.findall(r"^\| (GL\d+) \| (.*) \|$", page, re.MULTILINE)
     assert listed == sorted((code.code, code.title) for code in Code)
+
+
+def test_every_word_of_the_language_is_in_the_index() -> None:
+    page = (ROOT / "docs" / "words.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^\| `([a-z]+)` \|", page, re.MULTILINE)
+    grammar = (ROOT / "grammar" / "golc.lark").read_text(encoding="utf-8")
+    words = {*re.findall(r'"([a-z]+)"', grammar), *re.findall(r"^_[A-Z.1]+: /([a-z]+)", grammar, re.MULTILINE)}
+    assert listed == sorted(listed)
+    assert set(listed) == words | {*BUILTIN_TYPES, *FUNCTIONS, *SOURCES}
