@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from golc.diagnostics import Code, Findings, Label, Span
+from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Span
 from golc.proofs.questions import Prover, Question, Undecided, Witness
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import show_call
@@ -42,7 +42,8 @@ class Obligations:
         if isinstance(answer, Undecided) and what:
             self.undecided += 1
             message = f"{what} is not decided: {answer.reason}"
-            self.findings.warning(Code.NOT_DECIDED, message, span, "not decided", answer.help)
+            note = Diagnostic(Code.NOT_DECIDED, message, span, Severity.NOTE, "not decided", help=answer.help)
+            self.findings.add(note)
         return answer
 
     def error(
