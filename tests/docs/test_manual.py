@@ -28,6 +28,8 @@ from golc.loading import examine
 from golc.rendering import render
 from golc.syntax.format import formatted
 from golc.syntax.parse import parse_expression, parse_file
+from golc.theory.declare import BUILTIN_TYPES, FUNCTIONS
+from golc.theory.elaborate_actions import SOURCES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -116,7 +118,7 @@ def test_domain_has_the_findings_that_the_page_shows(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     save_page(block, tmp_path)
-    _, found = examine(block.file)
+    found = examine(block.file).findings
     assert "\n\n".join(map(render, found)) == block.findings.rstrip()
 
 
@@ -132,7 +134,7 @@ def save_page(block: Block, folder: Path) -> None:
 def test_file_in_several_blocks_has_no_findings(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     save_page(block, tmp_path)
-    assert "\n\n".join(map(render, examine(block.file)[1])) == ""
+    assert "\n\n".join(map(render, examine(block.file).findings)) == ""
 
 
 WHOLE = [*(block for block in DOMAINS if not block.findings), *LONGEST]
@@ -233,3 +235,12 @@ def test_every_code_is_listed() -> None:
     page = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
     listed = re.findall(r"^\| (GL\d+) \| (.*) \|$", page, re.MULTILINE)
     assert listed == sorted((code.code, code.title) for code in Code)
+
+
+def test_every_word_of_the_language_is_in_the_index() -> None:
+    page = (ROOT / "docs" / "words.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^\| `([a-z]+)` \|", page, re.MULTILINE)
+    grammar = (ROOT / "grammar" / "golc.lark").read_text(encoding="utf-8")
+    words = {*re.findall(r'"([a-z]+)"', grammar), *re.findall(r"^_[A-Z.1]+: /([a-z]+)", grammar, re.MULTILINE)}
+    assert listed == sorted(listed)
+    assert set(listed) == words | {*BUILTIN_TYPES, *FUNCTIONS, *SOURCES}
