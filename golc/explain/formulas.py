@@ -208,7 +208,7 @@ class Formulas:
             case Operator.ELEMENT, (element, collection):
                 return join(self.term(element, SUM, False), signs.IN, self._collection(collection))
             case Operator.NOT, (operand,):
-                return join(signs.NOT, self.term(operand, NOT, last))
+                return join(signs.NOT, self.term(operand, ATOM, last))
             case Operator.AND, operands:
                 return self.infix(signs.AND, _flat(Operator.AND, operands), NOT, last)
             case Operator.OR, operands:
