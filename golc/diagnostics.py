@@ -122,8 +122,11 @@ class Code(Enum):
     INVARIANT_AT_FIRST = ("GL052", "an invariant is false in the initial state")
     NO_INITIAL_WORLD = ("GL053", "what is said of the initial situation leaves no possible world")
 
+    IDLE_CONSTRAINT = ("GL054", "a constraint on the initial situation rules nothing out")
+
     # 060..069: knowledge
     NO_CHOICE = ("GL060", "a fluent is one of no values")
+    NEVER_KNOWN = ("GL061", "something is asked that can never be known")
 
     # 070..079: programs
     UNREACHABLE = ("GL070", "an interrupt is not reached")

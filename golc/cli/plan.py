@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from golc.planning.goals import GoalPlanning
     from golc.planning.limits import Limits
     from golc.planning.planner import Outcome, Plan, Planning
+    from golc.theory.types import Number
 
 DONE, NO_PLAN, GAVE_UP = 0, 1, 3
 EVERY = 10**12
@@ -151,7 +152,7 @@ class _Text:
         self._write = write
         self._numbered = numbered
         self._count = 0
-        self.cost: int | None = None
+        self.cost: Number | None = None
 
     def add(self, plan: Plan) -> None:
         self._count += 1
@@ -174,7 +175,7 @@ class _Json:
     def __init__(self, write: Callable[[str], None]) -> None:
         self._write = write
         self._plans: list[Any] = []
-        self.cost: int | None = None
+        self.cost: Number | None = None
 
     def add(self, plan: Plan) -> None:
         self.cost = plan.cost
@@ -197,7 +198,7 @@ class _Json:
         self._write(json.dumps(document, indent=2))
 
 
-def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: int | None) -> None:
+def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: Number | None) -> None:
     if not outcome.plans:
         verdict = outcome.gave_up or f"proven: {outcome.proof}"
         console.err(f"no plan for `{program}`: {verdict}")

@@ -10,6 +10,7 @@ from golc.program.nodes import Node
 from golc.program.step import Machine, Path
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
+from golc.theory.types import Number
 
 
 def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:
@@ -19,13 +20,13 @@ def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: D
     ``dead_end`` is told where the search got stuck.
     """
 
-    def weigh(before: State, action: Act) -> int:
+    def weigh(before: State, action: Act) -> Number:
         return machine.dynamics.cost(before, action.action, action.args)
 
     return layers.find(machine, node, state, budget, weigh, dead_end)
 
 
-def cost(dynamics: Dynamics, path: Path) -> int:
+def cost(dynamics: Dynamics, path: Path) -> Number:
     """The sum of the costs of a path's actions."""
     steps = zip(path.states, path.labels, strict=False)
     return sum(dynamics.cost(before, act.action, act.args) for before, act in steps if isinstance(act, Act))

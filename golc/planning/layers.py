@@ -20,8 +20,9 @@ from golc.program.labels import Act, Label, Transition
 from golc.program.nodes import Node
 from golc.program.step import Machine, Path
 from golc.situation.worlds import State
+from golc.theory.types import Number
 
-Weigh: TypeAlias = Callable[[State, Act], int]
+Weigh: TypeAlias = Callable[[State, Act], Number]
 """What an action adds to the weight of a way, given the state before it; at least 0."""
 
 
@@ -75,11 +76,11 @@ class _Layer:
     """
 
     ways: list[_Way] = field(default_factory=list)
-    known: dict[tuple[Node, State], tuple[_Way, int]] = field(default_factory=dict)
-    source: int | None = None
+    known: dict[tuple[Node, State], tuple[_Way, Number]] = field(default_factory=dict)
+    source: Number | None = None
     mixed: bool = False
 
-    def add(self, way: _Way, source: int) -> None:
+    def add(self, way: _Way, source: Number) -> None:
         """Put in a way, unless it adds nothing to another: those from one layer come in program order."""
         other, came_from = self.known.setdefault((way.node, way.state), (way, source))
         if other is not way and came_from == source and other.actions <= way.actions:
@@ -129,8 +130,8 @@ class _Search:
         self._budget = budget
         self._weigh = weigh
         self._dead_end = dead_end
-        self._layers: dict[int, _Layer] = {}
-        self._weights: list[int] = []
+        self._layers: dict[Number, _Layer] = {}
+        self._weights: list[Number] = []
         self._expanded: dict[tuple[Node, State], int] = {}
 
     def run(self, root: _Way) -> _Way | None:
@@ -144,7 +145,7 @@ class _Search:
                     break
         return goal
 
-    def _follow(self, start: _Way, weight: int) -> _Way | None:
+    def _follow(self, start: _Way, weight: Number) -> _Way | None:
         """The steps from a way that weigh nothing, depth first; others lead to a later layer."""
         stack = [(start, self._steps(start))]
         while stack:
@@ -174,7 +175,7 @@ class _Search:
         if stuck:
             self._dead_end.consider(way.actions, way.labels(), way.node, way.state)
 
-    def _postpone(self, way: _Way, weight: int, source: int) -> None:
+    def _postpone(self, way: _Way, weight: Number, source: Number) -> None:
         if not self._worth(way):
             return
         if weight not in self._layers:

@@ -22,7 +22,7 @@ from golc.situation.worlds import State
 from golc.theory.recursion import deep_recursion
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import Value, show
+from golc.theory.types import Number, Value, show
 
 MOST_NODES = 500_000
 """Pairs of program and state after which a ``search`` block gives up online: about 0.5 GB of memory."""
@@ -106,7 +106,7 @@ class Plan:
     """
 
     actions: tuple[Act, ...]
-    cost: int | None = None
+    cost: Number | None = None
 
 
 @dataclass

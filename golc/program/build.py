@@ -10,11 +10,12 @@ from golc.program import concurrency, iteration, lookahead, rules, timing
 from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.rules import Rule
+from golc.situation.compile import FORMULA
 from golc.situation.dynamics import Dynamics
 from golc.theory import statements as st
-from golc.theory.terms import Binder, Term, Variable, subterms
+from golc.theory.terms import Binder, Term, Variable, ranges, subterms
 from golc.theory.theory import Parameter, Procedure
-from golc.theory.types import Value, show
+from golc.theory.types import Number, Value, show
 
 LONGEST = 10**9
 """Seconds; more than 30 years are as good as for ever, and what the clock can count in."""
@@ -78,10 +79,10 @@ class Builder:
             case st.Sequence(parts=parts):
                 return self._sequence(parts, depth)
             case st.If(condition=condition, then=then, otherwise=otherwise):
-                condition_ = self._term(condition, depth)
+                condition_ = self._term(condition, depth, FORMULA)
                 return rules.If(span, condition_, self._rule(then, depth), self._rule(otherwise, depth))
             case st.While(condition=condition, body=body):
-                return iteration.While(span, self._term(condition, depth), self._rule(body, depth))
+                return iteration.While(span, self._term(condition, depth, FORMULA), self._rule(body, depth))
             case st.Choose(branches=branches):
                 return rules.Choose(span, self._rules(branches, depth))
             case st.Pick(binders=binders, where=where, body=body):
@@ -134,18 +135,20 @@ class Builder:
         body = self._rule(statement.body, depth)
         if statement.limit is None:
             return iteration.Star(statement.span, body)
-        return iteration.BoundedStar(statement.span, self._term(statement.limit, depth), body)
+        return iteration.BoundedStar(statement.span, self._term(statement.limit, depth, "a bound"), body)
 
     def _for(self, statement: st.For, depth: int) -> Rule:
-        values = tuple(binder.variable.type.values for binder in statement.binders)
-        turn = statement.body
+        binders, body = statement.binders, statement.body
         if statement.where is not None:
-            turn = st.If(statement.where, turn, st.Skip(span=statement.span), span=statement.span)
-        return iteration.For(statement.span, values, self._rule(turn, depth + len(values)))
+            body = st.If(statement.where, body, st.Skip(span=statement.span), span=statement.span)
+        turn = self._rule(body, depth + len(binders))
+        if any(binder.within is not None for binder in binders):
+            return iteration.ForEach(statement.span, self._environments(binders, None, depth), turn)
+        return iteration.For(statement.span, tuple(binder.variable.type.values for binder in binders), turn)
 
     def _request(self, statement: st.Search, depth: int) -> Callable[..., lookahead.Request]:
         """A function of a state and an environment that says what a ``search`` asks for."""
-        steps = None if statement.steps is None else self._term(statement.steps, depth)
+        steps = None if statement.steps is None else self._term(statement.steps, depth, "a bound")
         seconds = None if statement.seconds is None else self._seconds(statement.seconds, depth)
         if steps is None and seconds is None:
             request = lookahead.Request(statement.strategy)
@@ -159,10 +162,10 @@ class Builder:
         if isinstance(duration, Fraction):
             constant = float(min(duration, Fraction(LONGEST)))
             return lambda state, env: constant
-        term: Callable[..., int] = self._term(duration, depth)
+        term: Callable[..., Number] = self._term(duration, depth, "a time")
 
         def seconds(state: Any, env: Any) -> float:
-            value: int = term(state, env)
+            value = term(state, env)
             return float(max(0, min(value, LONGEST)))
 
         return seconds
@@ -178,17 +181,17 @@ class Builder:
         self._calls.append(rule)
         return rule
 
-    def _term(self, term: Term, depth: int) -> Callable[..., Any]:
+    def _term(self, term: Term, depth: int, what: str | None = None) -> Callable[..., Any]:
         self._reads(term)
-        return self.knowing.settled(term, depth)
+        return self.knowing.settled(term, depth, what)
 
     def _condition(self, term: Term, depth: int) -> Callable[..., Any]:
         self._reads(term)
         return self.knowing.condition(term, depth)
 
     def _environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
-        if where is not None:
-            self._reads(where)
+        for term in (*ranges(binders), *(() if where is None else (where,))):
+            self._reads(term)
         return self.knowing.environments(binders, where, depth)
 
     def _args(

@@ -161,7 +161,7 @@ class _Clause:
                 indent += "  "
         for condition in (effect.where, effect.condition):
             if condition is not None:
-                lines.append(f"{indent}if {compiler.expression(condition, cells)}:")
+                lines.append(f"{indent}if {compiler.formula(condition, cells)}:")
                 indent += "  "
         place = self._layout.places[effect.fluent]
         slot = compiler.slot(place, effect.args, cells)
@@ -174,7 +174,7 @@ class _Clause:
         what = self.effect.fluent
 
         def failure(outside: Value) -> Exception:
-            return errors.value_outside(value.span, f"`{what}`", outside, type_)
+            return errors.value_outside(value.span, what, outside, type_)
 
         return self._compiler.checked(value, type_, cells, failure)
 
@@ -184,8 +184,8 @@ class _Clause:
         span = choice.span
         values = tuple(dict.fromkeys(elements(among, choice.among.type)))
         if not values:
-            raise errors.nothing_possible(span, f"`{fluent.name}`")
+            raise errors.nothing_possible(span, fluent.name)
         for value in values:
             if value not in fluent.type:
-                raise errors.value_outside(span, f"`{fluent.name}`", value, fluent.type)
+                raise errors.value_outside(span, fluent.name, value, fluent.type)
         return Options(values)

@@ -6,9 +6,9 @@ so that no answer here gets slower with time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, TypeAlias, cast
 
 from golc.diagnostics import Span
 from golc.situation.beginning import initial_state
@@ -20,10 +20,11 @@ from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
 from golc.theory.fitting import describe
+from golc.theory.order import sort_key
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
-from golc.theory.types import Unknown, Value, show, show_call
+from golc.theory.types import Number, Unknown, Value, show, show_call
 
 Args: TypeAlias = tuple[Value, ...]
 
@@ -88,13 +89,13 @@ class Dynamics:
         after: State = self._progress[action](state, *args)
         return after
 
-    def cost(self, state: State, action: str, args: Args) -> int:
+    def cost(self, state: State, action: str, args: Args) -> Number:
         """What the action costs in the situation before it: at least 0; 1 if the theory does not say.
 
         Where that is not known, the most that it may cost.
         """
         function = self._cost[action]
-        costs: Iterator[tuple[Assignment, int]] = survey(state, lambda world: function(world, *args))
+        costs: Iterator[tuple[Assignment, Number]] = survey(state, lambda world: function(world, *args))
         return max(cost for _, cost in costs)
 
     def outcomes(self, state: State, action: str, args: Args) -> list[Outcome]:
@@ -171,11 +172,18 @@ class Dynamics:
 
     def value(self, state: State, fluent: str, args: Args = ()) -> Value:
         """The value of a ground fluent; an ``Unknown`` if the worlds disagree."""
-        return shown(state)[self.layout.places[fluent].slot(args)]
+        return self._in_order(fluent, shown(state)[self.layout.places[fluent].slot(args)])
 
     def values(self, state: State) -> Iterator[tuple[tuple[str, Args], Value]]:
         """Each ground fluent, as name and arguments, with its value or an ``Unknown``."""
-        return zip(self.layout.ground_fluents, shown(state), strict=True)
+        for ground, value in zip(self.layout.ground_fluents, shown(state), strict=True):
+            yield ground, self._in_order(ground[0], value)
+
+    def _in_order(self, fluent: str, value: Value) -> Value:
+        """Possible values in the order of the type: what is not known looks the same, however that came about."""
+        if not isinstance(value, Unknown):
+            return value
+        return Unknown(tuple(sorted(cast(Iterable[Any], value.values), key=sort_key(self.theory.fluents[fluent].type))))
 
     def show(self, state: State) -> dict[str, Value]:
         """Each ground fluent as text with its value or an ``Unknown``."""
@@ -206,18 +214,18 @@ class Dynamics:
         terms = "".join(f"{self.compiler.expression(term, cells)}, " for term in action.senses)
         return self.compiler.function(_signature(cells), [f"return ({terms})"])
 
-    def _compile_cost(self, name: str) -> Callable[..., int]:
+    def _compile_cost(self, name: str) -> Callable[..., Number]:
         action = self.theory.actions[name]
         cells = variables(len(action.parameters))
         if action.cost is None:
             return self.compiler.function(_signature(cells), ["return 1"])
         span = action.cost.span
 
-        def negative(cost: int, *args: Value) -> None:
+        def negative(cost: Number, *args: Value) -> None:
             raise errors.negative_cost(span, show_call(name, args), cost)
 
         call = f"{self.compiler.bind('negative', negative)}(c{''.join(f', {cell.text}' for cell in cells)})"
-        lines = [f"c = {self.compiler.expression(action.cost, cells)}", f"if c < 0: {call}", "return c"]
+        lines = [f"c = {self.compiler.some(action.cost, cells, 0, 'a cost')}", f"if c < 0: {call}", "return c"]
         return self.compiler.function(_signature(cells), lines)
 
     def _compile_progress(self, name: str) -> Callable[..., State]:
@@ -257,7 +265,7 @@ class Dynamics:
                 indent += "  "
             for condition in (effect.where, effect.condition):
                 if condition is not None:
-                    lines.append(f"{indent}if {self.compiler.expression(condition, inner)}:")
+                    lines.append(f"{indent}if {self.compiler.formula(condition, inner)}:")
                     indent += "  "
             lines += [indent + line for line in self._assignment(effect, inner, collect)]
         return lines

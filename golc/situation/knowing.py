@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from typing import Any, TypeAlias
 
 from golc.diagnostics import NOWHERE
-from golc.situation.compile import Compiler
+from golc.situation.compile import FORMULA, Compiler
 from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
 from golc.theory import errors
@@ -35,17 +35,17 @@ class Knowing:
 
     def condition(self, term: Term, depth: int) -> Asked:
         """Whether a formula is known to be true: a function of a state and an environment of ``depth`` variables."""
-        return self.known_true(self.compiler.term(term, depth), (term,))
+        return self.known_true(self.compiler.term(term, depth, FORMULA), (term,))
 
     def refuted(self, term: Term, depth: int) -> Asked:
         """Whether a formula is known to be false, as for ``condition``."""
-        function = self.compiler.term(term, depth)
+        function = self.compiler.term(term, depth, FORMULA)
         return self.known_true(lambda world, env: not function(world, env), (term,))
 
-    def settled(self, term: Term, depth: int) -> Asked:
+    def settled(self, term: Term, depth: int, what: str | None = None) -> Asked:
         """The value of a term, or whether a formula is true; if worlds disagree, the function raises
-        ``UndecidedError``."""
-        return self._settled(self.compiler.term(term, depth), term)
+        ``UndecidedError``. ``what`` as for ``Compiler.term``."""
+        return self._settled(self.compiler.term(term, depth, what), term)
 
     def arguments(self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int) -> Asked:
         """The values of the arguments of something, as for ``settled``."""

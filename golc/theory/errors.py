@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, ProgramError, Span, counted
 from golc.theory.fitting import describe
-from golc.theory.types import Type, Value, show
+from golc.theory.types import Number, Type, Value, show
 
 
 def argument_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
@@ -21,7 +21,7 @@ def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramEr
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
 
 
-def negative_cost(span: Span, call: str, value: int) -> ProgramError:
+def negative_cost(span: Span, call: str, value: Number) -> ProgramError:
     """An action would cost less than nothing."""
     message = f"the cost of `{call}` would be {show(value)}, but a cost is at least 0"
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
@@ -101,5 +101,5 @@ def no_initial_world(span: Span) -> ProgramError:
 
 def nothing_possible(span: Span, what: str) -> ProgramError:
     """``one of`` an empty collection."""
-    message = f"{what} would have no possible value: the collection is empty"
+    message = f"`{what}` would have no possible value: the collection is empty"
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker="empty here"))

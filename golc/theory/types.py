@@ -16,6 +16,8 @@ from typing import Any, Literal, TypeAlias, cast, overload
 
 Value: TypeAlias = Hashable
 
+Number: TypeAlias = int | Fraction
+
 
 @dataclass(frozen=True)
 class Type:
@@ -245,6 +247,8 @@ def show(value: Value) -> str:
             return "true" if value else "false"
         case int() if value.bit_length() > MOST_BITS:
             return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
+        case Fraction(denominator=1):
+            return show(value.numerator)
         case Fraction():
             return _decimal(value)
         case frozenset():

@@ -288,6 +288,14 @@ action a:
     ]
 
 
+def test_possible_values_are_shown_in_the_order_of_their_type() -> None:
+    text = "domain d\ntype side = {left, right, top}\nfluent f: side = one of [top, left]\nfluent g: side? = unknown\n"
+    dynamics = Dynamics(theory_of(text))
+    state = dynamics.initial()
+    assert dynamics.show(state) == {"f": Unknown(("left", "top")), "g": Unknown((None, "left", "right", "top"))}
+    assert dynamics.value(state, "f") == Unknown(("left", "top"))
+
+
 def test_a_constraint_that_leaves_nothing_is_named() -> None:
     text = "domain d\nfluent f: 1..3 = unknown\ninitially f > 1\ninitially f < 2\n"
     with pytest.raises(ProgramError, match="no initial world is possible") as caught:

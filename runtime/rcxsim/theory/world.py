@@ -14,7 +14,7 @@ from golc.runtime.rcxsim.trace import Trace
 from golc.situation.dynamics import Args, Dynamics
 from golc.situation.layout import World
 from golc.situation.worlds import State
-from golc.theory.terms import FluentTerm
+from golc.theory.terms import Choice, FluentTerm
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import Value, show, show_call
 
@@ -32,7 +32,8 @@ class TheoryWorld:
         self.state = self._settled_by_chance(self.dynamics.initial())
         self._trace = trace
         changed = {effect.fluent for action in theory.actions.values() for effect in action.effects}
-        self._facts = frozenset(theory.fluents) - changed
+        left_open = {fluent.name for fluent in theory.fluents.values() if isinstance(fluent.initial, Choice)}
+        self._facts = frozenset(theory.fluents) - changed - left_open
         self._settled: set[tuple[str, Args]] = set()
         self._elsewhere = [action for action in theory.actions.values() if _comes_from_elsewhere(theory, action)]
 
@@ -91,8 +92,9 @@ class TheoryWorld:
     def sense(self, action: str, args: Args, answers: Sequence[Value] | None) -> Value:
         """What a perfect device answers after the action; ``answers`` are the values that it has numbers for.
 
-        A sensed fluent that no action of the theory changes is a fact that only the world knows, whatever the theory
-        takes for its first value: chance settles it when it is sensed first. With arguments it speaks of some place or
+        What the theory leaves open chance has settled already. A sensed fluent that no action of the theory changes is
+        a fact that only the world knows, whatever value the theory takes for it: chance settles it when it is sensed
+        first. With arguments it speaks of some place or
         thing and stays so; without, it is what is in front of the sensor now, until anything else is done.
         """
         self._settle(action, args, answers)
