@@ -6,9 +6,9 @@ from collections.abc import Iterator
 from itertools import chain
 
 from golc.explain import signs
-from golc.explain.axioms import conjuncts
 from golc.explain.document import Document, join
 from golc.explain.formulas import NOT, OR, SUM, Formulas, quantified
+from golc.explain.logic import conjuncts
 from golc.explain.page import Page, Section, called, conjunction, enclosed, head, implied, says
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Choice, Literal, Term

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field, replace
 
+from golc.explain.logic import conjuncts, equal, negated
 from golc.explain.renaming import Renaming
 from golc.theory.fitting import includes
 from golc.theory.terms import Binder, Choice, Display, Literal, Membership, Operation, Operator, Term, Variable
@@ -120,7 +121,7 @@ class _Causing:
             *self.ranges,
             *self.elements(renaming),
             *map(renaming, demands),
-            *(_equal(head, renaming(arg)) for head, arg in equations),
+            *(equal(head, renaming(arg)) for head, arg in equations),
             *([] if given else self.value(renaming)),
         ]
         return Cause(tuple(binders), self.action.name, args, tuple(conditions))
@@ -175,7 +176,7 @@ class _Causing:
                 yield Operation(Operator.ELEMENT, (y, renaming(among)), type=BOOL)
             case Variable() as y, value:
                 assert not isinstance(value, Choice)
-                yield _equal(y, renaming(value))
+                yield equal(y, renaming(value))
             case _, Literal():
                 return
             case _, Choice(among=among) if _constants(among) is not None:
@@ -185,19 +186,4 @@ class _Causing:
             case truth, value:
                 assert not isinstance(value, Choice)
                 formula = renaming(value)
-                yield formula if truth else Operation(Operator.NOT, (formula,), type=BOOL)
-
-
-def _equal(left: Term, right: Term) -> Term:
-    return Operation(Operator.EQUAL, (left, right), type=BOOL)
-
-
-def conjuncts(formula: Term | None) -> Iterator[Term]:
-    """The parts of a conjunction, from left to right; no recursion, for the depth is the input's."""
-    stack = [] if formula is None else [formula]
-    while stack:
-        part = stack.pop()
-        if isinstance(part, Operation) and part.op is Operator.AND:
-            stack.extend(reversed(part.args))
-        else:
-            yield part
+                yield formula if truth else negated(formula)

@@ -8,6 +8,7 @@ from itertools import chain
 
 from golc.explain import signs
 from golc.explain.document import Document, Group, Line, Nest, Text, join, separated
+from golc.syntax.notation import string
 from golc.theory.reading import reached
 from golc.theory.terms import (
     Before,
@@ -107,7 +108,7 @@ class Formulas:
     def applied(self, name: Text, args: Sequence[Document], situation: Document | None = None) -> Document:
         """``f(x, s)``; without arguments the name alone."""
         parts = [*args, *([] if situation is None else [situation])]
-        return Group(join(name, listed("call", parts))) if parts else name
+        return join(name, signs.sign("("), separated(parts, signs.sign(", ")), signs.sign(")")) if parts else name
 
     def term(self, term: Term, least: int = OPEN, last: bool = True) -> Document:
         """A term where something binding at least so tightly is needed; ``last`` if nothing follows that a quantifier,
@@ -232,9 +233,10 @@ class Formulas:
             case Operator.INDEX, (collection, index):
                 return join(self.term(collection, ATOM), signs.sign("["), self.term(index), signs.sign("]"))
             case op, (left, right) if op in INFIX:
-                _, before, behind, plain, tex = INFIX[op]
-                sign = Text(f" {plain} ", f" {tex} ")
-                return join(self.term(left, before, False), sign, self.term(right, behind, last))
+                level, before, behind, plain, tex = INFIX[op]
+                space = Line() if level == SUM else signs.sign(" ")
+                sign = Text(f"{plain} ", f"{tex} ")
+                return Group(join(self.term(left, before, False), space, sign, Nest(self.term(right, behind, last))))
             case op, operands:
                 return self.applied(signs.words(op.value), self._terms(operands))
 
@@ -296,7 +298,6 @@ class Formulas:
 
 
 BRACKETS = {
-    "call": (signs.sign("("), signs.sign(")")),
     "list": (signs.sign("["), signs.sign("]")),
     "set": (Text("{", r"\{"), Text("}", r"\}")),
 }
@@ -323,7 +324,7 @@ def type_text(type_: Type) -> Document:
 
 def value_text(value: Value, type_: Type) -> Document:
     """A value; a string in quotes."""
-    return signs.words(f'"{value}"' if type_ == STRING else show(value))
+    return signs.words(string(str(value)) if type_ == STRING else show(value))
 
 
 def listed(kind: str, parts: Sequence[Document]) -> Document:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from fractions import Fraction
 
 from golc.explain import signs
 from golc.explain.document import Document, Group, Line, Nest, Text, join, separated
 from golc.explain.formulas import ATOM, SUM, Formulas, infixed, listed, value_text
+from golc.explain.logic import negated
 from golc.theory import statements as st
-from golc.theory.terms import Base, Operation, Operator, Term
-from golc.theory.types import BOOL, REAL
+from golc.theory.terms import Base
+from golc.theory.types import REAL
 
 SPACE = Line(Text(" ", r"\ "))
 CONCURRENT, SEQUENCE, UNIT = range(3)
@@ -89,14 +89,20 @@ def _block(formulas: Formulas, statement: st.Statement) -> Document | None:
         case st.TogetherStar(body=body):
             return join(_enclosed(program(formulas, body)), signs.TOGETHER_STAR)
         case st.Guard(condition=condition, body=body):
-            return formulas.applied(signs.words("gexec"), [formulas.term(condition), program(formulas, body)])
+            return _function("gexec", formulas.term(condition), program(formulas, body))
         case st.Search(body=body):
             return join(signs.SEARCH, *_options(formulas, statement), _enclosed(program(formulas, body)))
         case st.Within(seconds=seconds, body=body, otherwise=otherwise):
-            args = [_duration(formulas, seconds), program(formulas, body), program(formulas, otherwise)]
-            return formulas.applied(signs.words("within"), args)
+            first, second = program(formulas, body), program(formulas, otherwise)
+            return _function("within", _duration(formulas, seconds), first, second)
         case _:
             return None
+
+
+def _function(name: str, *args: Document) -> Document:
+    """``gexec(φ, δ)``."""
+    inside = Nest(separated(args, signs.sign(","), Line()))
+    return Group(join(signs.words(name), signs.sign("("), inside, signs.sign(")")))
 
 
 def _worded(word: str, head: Document, branches: Sequence[tuple[Formulas, str, st.Statement]], end: str) -> Document:
@@ -116,7 +122,7 @@ def _options(formulas: Formulas, search: st.Search) -> list[Document]:
         found.append(join(Text("≤ ", r"\leq "), formulas.term(search.steps, SUM)))
     if search.seconds is not None:
         found.append(_duration(formulas, search.seconds))
-    return [listed("list", found)] if found else []
+    return [Group(listed("list", found))] if found else []
 
 
 def _duration(formulas: Formulas, seconds: st.Duration) -> Document:
@@ -136,7 +142,7 @@ def _simple(formulas: Formulas, statement: st.Statement) -> Document:
         case st.Wait():
             return signs.words("wait")
         case st.WaitUntil(condition=condition):
-            return program(formulas, st.While(_negated(condition), st.Wait()))
+            return program(formulas, st.While(negated(condition), st.Wait()))
         case st.WaitTime(seconds=seconds):
             return formulas.applied(signs.words("wait"), [_duration(formulas, seconds)])
         case st.Say(message=message):
@@ -145,15 +151,3 @@ def _simple(formulas: Formulas, statement: st.Statement) -> Document:
             return formulas.applied(signs.words("abort"), [formulas.message(message.parts)])
         case _:
             raise TypeError(f"{statement!r} has no notation")
-
-
-def _negated(condition: Term) -> Term:
-    match condition:
-        case Operation(op=Operator.NOT, args=(operand,)):
-            return operand
-        case Operation(op=Operator.EQUAL):
-            return replace(condition, op=Operator.DIFFERENT)
-        case Operation(op=Operator.DIFFERENT):
-            return replace(condition, op=Operator.EQUAL)
-        case _:
-            return Operation(Operator.NOT, (condition,), type=BOOL)

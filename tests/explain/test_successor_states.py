@@ -5,7 +5,7 @@ The evaluator below reads the axiom's structure; it knows nothing of the code th
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
 from pathlib import Path
 from random import Random
@@ -67,7 +67,35 @@ axiom spare(x, n):
 fluent spare(x: 1..2, n: 1..4): floor = x
 """
 
+UNCERTAIN = """type door = {open, closed}
+type side = {left, right}
+fluent gate(s: side): door = closed
+fluent lit(s: side) = false
+fluent times: 0..3 = 0
+action shake(s: side):
+    causes gate(s) := unknown when times < 3
+    causes lit(s) := one of {true, false}
+    causes times := one of {times, 3 - times}
+action slam:
+    causes forall s: side. gate(s) := one of {closed} when lit(s)
+    causes lit(left) := one of {lit(right), gate(left) = open}
+    causes lit(right) := unknown
+fluent at(s: side): 1..4 = 1
+axiom at(s):
+    after shake(s) := one of {1, 4}
+    after shake(other) := unknown when times = 1
+    otherwise unchanged
+"""
+
 Values = tuple[Value, ...]
+AGGREGATES: dict[str, Callable[..., Any]] = {
+    "exists": any,
+    "forall": all,
+    "count": sum,
+    "sum": sum,
+    "min": min,
+    "max": max,
+}
 
 
 class Reading:
@@ -100,7 +128,9 @@ class Reading:
             case t.Quantified(kind=kind, binders=binders, where=where, body=body):
                 bound = [values for values in self.bindings(binders, scope) if where is None or self(where, values)]
                 found = [self(body, values) for values in bound]
-                return {"exists": any, "forall": all, "count": sum, "sum": sum, "min": min, "max": max}[kind](found)
+                return AGGREGATES[kind](found)
+            case t.Display(elements=elements):
+                return self.all(elements, scope)
         raise AssertionError(term)
 
     def all(self, terms: tuple[t.Term, ...], scope: Values) -> Values:
@@ -133,6 +163,7 @@ class Reading:
             t.Operator.ABSOLUTE: abs,
             t.Operator.MINIMUM: min,
             t.Operator.MAXIMUM: max,
+            t.Operator.ELEMENT: lambda a, b: a in b,
         }
         return operations[op](*values)
 
@@ -151,13 +182,15 @@ class Reading:
                 return True
         return False
 
-    def after(self, axiom: SuccessorState, action: str, args: Values, of: Values) -> list[Value]:
-        """The values that the axiom allows a ground fluent after a ground action: one, if the theory is consistent."""
+    def after(self, axiom: SuccessorState, action: str, args: Values, of: Values) -> Sequence[Value]:
+        """The values that the axiom allows a ground fluent after a ground action."""
         before = self.state[axiom.fluent.name, of]
         if axiom.value is None:
             gains = any(self.caused(cause, action, args, of) for cause in axiom.gains)
             losses = any(self.caused(cause, action, args, of) for cause in axiom.losses)
-            return [gains or (bool(before) and not losses)]
+            may_hold = gains or (before is True and not losses)
+            may_fail = losses or (before is False and not gains)
+            return [True] * may_hold + [False] * may_fail
         candidates = possible(axiom.fluent.type)
         becomes = [y for y in candidates if any(self.caused(c, action, args, (*of, y)) for c in axiom.gains)]
         return [y for y in candidates if y in becomes or (y == before and not becomes)]
@@ -168,35 +201,43 @@ def possible(type_: Type) -> list[Value]:
 
 
 def agree(theory: BasicActionTheory, random: Random, rounds: int) -> int:
-    """Compare the axioms with progression in random states; how many values were compared."""
+    """Compare the axioms with progression in random states; in how many it was possible."""
     dynamics = Dynamics(theory)
     axioms = {name: successor_state(theory, fluent) for name, fluent in theory.fluents.items()}
-    slots = dynamics.layout.ground_fluents
+    ground = dynamics.layout.ground_fluents
+    slots = list(enumerate(ground))
     compared = 0
     for _ in range(rounds):
-        state = tuple([random.choice(possible(theory.fluents[name].type)) for name, _ in slots])
+        state = tuple([random.choice(possible(theory.fluents[name].type)) for _, (name, _) in slots])
         action = random.choice(list(theory.actions.values()))
         args = tuple([random.choice(possible(parameter.type)) for parameter in action.parameters])
         try:
             after = dynamics.progress(state, action.name, args)
         except ProgramError:
             continue  # conflicting effects, or a value outside its type
-        reading = Reading(theory, dict(zip(slots, state, strict=True)))
-        for name, of in slots:
-            value = dynamics.value(after, name, of)
-            if value in possible(theory.fluents[name].type):
-                assert reading.after(axioms[name], action.name, args, of) == [value], (action.name, args, name, of)
-                compared += 1
+        worlds = [after] if isinstance(after, tuple) else list(after)
+        if any(
+            world[place] not in possible(theory.fluents[name].type) for world in worlds for place, (name, _) in slots
+        ):
+            continue  # an integer that is not among those tried
+        reading = Reading(theory, dict(zip(ground, state, strict=True)))
+        allowed = [reading.after(axioms[name], action.name, args, of) for _, (name, of) in slots]
+        assert set(worlds) == set(product(*allowed)), (action.name, args)
+        compared += 1
     return compared
 
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_the_axioms_of_the_examples_say_what_progression_does(path: Path) -> None:
-    assert agree(load(path), Random(1), 150) > 300
+    assert agree(load(path), Random(1), 150) > 100
 
 
 @pytest.mark.parametrize("seed", range(4))
 def test_the_axioms_of_a_theory_with_every_kind_of_effect_say_what_progression_does(
     seed: int, theory: Callable[[str], BasicActionTheory]
 ) -> None:
-    assert agree(theory(MIXED), Random(seed), 150) > 300
+    assert agree(theory(MIXED), Random(seed), 150) > 100
+
+
+def test_an_axiom_allows_what_an_uncertain_effect_leaves_open(theory: Callable[[str], BasicActionTheory]) -> None:
+    assert agree(theory(UNCERTAIN), Random(5), 150) > 100
