@@ -84,7 +84,7 @@ class _Writer:
             yield says(after, signs.EQUALS, before)
             return
         other = signs.primed(y)
-        unchanged = join(signs.NOT, signs.EXISTS, other, signs.sign(". "), self.gamma(signs.GAMMA, other))
+        unchanged = join(signs.NOT, signs.EXISTS, other, signs.DOT, self.gamma(signs.GAMMA, other))
         keeps = [join(before, signs.sign(" = "), y), unchanged]
         yield self.concluded(join(after, signs.sign(" = "), y), self.gamma(signs.GAMMA, y), keeps)
 

@@ -56,7 +56,7 @@ INFIX: dict[Operator, tuple[int, int, int, str, str]] = {
 """How tightly an operation binds, what its operands need, and its sign."""
 
 AGGREGATES = {
-    "count": signs.sign("#"),
+    "count": Text("#", r"\#"),
     "sum": Text("∑", r"\sum "),
     "min": Text("min", r"\min "),
     "max": Text("max", r"\max "),

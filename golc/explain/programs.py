@@ -51,7 +51,7 @@ def _branches(formulas: Formulas, sign: Text, branches: Sequence[st.Statement]) 
 
 def _interrupt(formulas: Formulas, handler: st.Interrupt) -> Document:
     inner, binders = formulas.bound(handler.binders)
-    head = [binders, Text(". ", r".\;")] if handler.binders else []
+    head = [binders, signs.DOT] if handler.binders else []
     body = Nest(join(Line(), program(inner, handler.body)))
     parts = [*head, inner.term(handler.condition), Text(" →", r" \to ")]
     return Group(join(signs.BEGIN_INTERRUPT, *parts, body, signs.END_INTERRUPT))
@@ -80,7 +80,7 @@ def _block(formulas: Formulas, statement: st.Statement) -> Document | None:
             inner, head = formulas.bound(binders)
             parts = body.parts if isinstance(body, st.Sequence) else (body,)
             tested = body if where is None else st.Sequence((st.Test(where), *parts))
-            return Group(join(signs.PICK, head, Text(". ", r".\;"), program(inner, tested, UNIT)))
+            return Group(join(signs.PICK, head, signs.DOT, program(inner, tested, UNIT)))
         case st.Star(limit=None, body=body):
             return join(_enclosed(program(formulas, body)), signs.STAR)
         case st.Star(limit=Base() as limit, body=body):

@@ -9,7 +9,10 @@ from golc.explain.page import Page
 from golc.explain.signs import TEX_TEXT
 
 WIDTH = 92
-"""Columns of a formula: with its indentation it has a hundred."""
+"""Columns of a formula in a terminal: with its indentation it has a hundred."""
+
+TEX_WIDTH = 76
+"""The same on paper, where signs are narrower than they count."""
 
 INDENT = "    "
 
@@ -45,7 +48,7 @@ def _latex(page: Page) -> Iterator[str]:
 
 def _rows(formulas: Sequence[Document]) -> Iterator[Row]:
     for formula in formulas:
-        yield from layout(formula, WIDTH)
+        yield from layout(formula, TEX_WIDTH)
 
 
 def _tex_row(row: Row) -> str:

@@ -37,6 +37,7 @@ END_INTERRUPT = Text("⟩", r" \rangle")
 BELOW = Text(" ⊑ ", r" \sqsubseteq ")
 
 COLON = Text(": ", r"{:}\,")
+DOT = Text(". ", r".\;")
 
 SUBSCRIPTS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 TEX_TEXT = str.maketrans(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -73,6 +75,34 @@ def test_all_names_of_a_domain_can_be_set(path: Path) -> None:
 )
 def test_what_cannot_be_set_is_seen(text: str, what: list[str]) -> None:
     assert wrong(text) == what
+
+
+TERMS = """type t = {a, b}
+fluent f(x: t): int = 0
+fluent g(x: t): t = unknown
+define d := (count x: t where f(x) % 2 = 1. f(x) < 3) + (sum x: t. f(x) // 2 * -abs(f(x)))
+define e := d if f(a) != 1 and (f(b) <= 2 iff d >= 3) else min(1, d)
+define k(x: t) := knows(f(x) = 1) or possible(g(x) = a) implies known(g(x)) and x not in {a}
+action spin(x: t):
+    poss exists y: t where y = x. forall z: t. z in t and poss(spin(z))
+    causes g(x) := one of {a, b} when f(x) > e
+"""
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="there is no TeX")
+def test_tex_sets_it(theory: Callable[[str], BasicActionTheory], tmp_path: Path) -> None:
+    theories = [theory(TERMS), *(load(path) for path in FILES)]
+    pages = [as_latex(explain(each, name)) for each in theories for name in names(each)]
+    document = ["\\documentclass{article}", "\\usepackage{amsmath}", "\\begin{document}", *pages, "\\end{document}"]
+    (tmp_path / "pages.tex").write_text("\n".join(document), encoding="utf-8")
+    command = ["pdflatex", "-halt-on-error", "-interaction=nonstopmode", "pages.tex"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120, check=False)
+    assert done.returncode == 0, done.stdout[-2000:]
+
+
+def test_terms_of_every_kind_can_be_set(theory: Callable[[str], BasicActionTheory]) -> None:
+    built = theory(TERMS)
+    assert {name: wrong(as_latex(explain(built, name))) for name in names(built)} == {name: [] for name in names(built)}
 
 
 def test_an_axiom(theory: Callable[[str], BasicActionTheory]) -> None:
