@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import ProgramError, Span
-from golc.program.labels import Act
+from golc.program.labels import Act, Expect
 from golc.situation.dynamics import Dynamics
 from golc.situation.knowing import who_senses
 from golc.situation.worlds import State
@@ -16,15 +16,14 @@ from golc.theory.terms import Operation, Operator, Term
 from golc.theory.types import Value, show, show_call
 
 if TYPE_CHECKING:
-    from golc.program.rules import Rule
-    from golc.program.step import NoPath, Path
+    from golc.program.paths import NoPath, Path
 
 
 @dataclass(frozen=True)
 class Blamed:
-    """A rule that had no transition, the reason's name, and what belongs to it."""
+    """The place of a rule that had no transition, the reason's name, and what belongs to it."""
 
-    rule: Rule
+    span: Span
     reason: str
     details: tuple[Any, ...]
 
@@ -52,7 +51,7 @@ def explain(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
 
 
 def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
-    span, details = blamed.rule.span, blamed.details
+    span, details = blamed.span, blamed.details
     match blamed.reason:
         case "false":
             return _not_true(dynamics, state, span, *details)
@@ -70,7 +69,14 @@ def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
         case "no value":
             return Blocked(span, "no value can be picked")
         case "waits":
-            return Blocked(span, "look-ahead cannot wait: nothing happens while it thinks")
+            return Blocked(
+                span, "look-ahead cannot wait: nothing happens while it thinks" + _unexpected(dynamics, state)
+            )
+        case "waits for":
+            blocked = _not_true(dynamics, state, span, *details)
+            return replace(blocked, text=blocked.text + _unexpected(dynamics, state))
+        case "pruned":
+            return pruned(span, *details)
         case "aborts":
             return Blocked(span, "the program would end itself as failed here")
         case "lost":
@@ -143,13 +149,31 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
     return Blocked(span, f"`{call}` is not possible")
 
 
+def pruned(span: Span, prune: str, label: Act | Expect, results: tuple[Value, ...] = ()) -> Blocked:
+    """An action is possible and leads, where it has these results, to a situation that look-ahead does not enter."""
+    answer = f" where it answers {', '.join(map(show, results))}" if results else ""
+    return Blocked(span, f"`{show_call(label.action, label.args)}` is pruned by `{prune}`{answer}")
+
+
 def _how_far(none: NoPath) -> str:
     """How far a search came that found no way, and what stopped it."""
     text = f"; {none.limit}" if none.limit else ""
     if none.reasons:
-        way = f"the longest way was {', '.join(map(str, none.deepest))}; there" if none.deepest else "stuck at once:"
+        way = f"the longest way was {', '.join(none.deepest)}; there" if none.deepest else "stuck at once:"
         text += f"; {way} {' and '.join(map(valued, none.reasons))}"
     return text
+
+
+def _unexpected(dynamics: Dynamics, state: State) -> str:
+    """Why none of the expected exogenous actions happens, if there are any."""
+    expected = [action for action in dynamics.theory.actions.values() if action.expected]
+    reasons = [
+        f"no `{action.name}` is possible"
+        if action.parameters
+        else valued(_impossible(dynamics, state, action.span, action.name, ()))
+        for action in expected
+    ]
+    return f", and nothing is expected: {'; '.join(reasons)}" if reasons else ""
 
 
 def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath) -> Blocked:
@@ -162,7 +186,7 @@ def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath
         text += f"; it counted on {were}"
     text += _how_far(none)
     at = path.labels[index].span if index < len(path.labels) else path.labels[-1].span
-    return Blocked(at, text, changed, sum(isinstance(label, Act) for label in path.labels[:index]))
+    return Blocked(at, text, changed, path.actions(index))
 
 
 def _conjuncts(term: Term) -> Iterator[Term]:

@@ -14,12 +14,12 @@ from golc.program.invariants import Invariants
 from golc.program.labels import Abort, Act, Say, Wait
 from golc.scenarios.expect import Judge, failed
 from golc.situation.layout import World
-from golc.situation.worlds import ActualWorld, Readable, State, keep, shown, survey, with_value
+from golc.situation.worlds import ActualWorld, State, keep, survey
 from golc.theory.recursion import EVALUATION, deep_recursion
-from golc.theory.scenarios import Assignment, Assumption, Events, Given, GroundCall, Scenario
+from golc.theory.scenarios import Assignment, Assumption, Events, GroundCall, Scenario
 from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import Unknown, show
+from golc.theory.types import show
 
 LONGEST = 100_000
 """Actions and events after which a scenario is taken not to end."""
@@ -64,7 +64,7 @@ class _Play:
         self.machine.now = lambda: self._now
         self.state: State
         self.world: World
-        self._begin(self.dynamics.initial())
+        self._begin()
         self._until = None if scenario.until is None else self._formula(scenario.until)
         self._lines = [
             (line, self._formula(line.trigger) if isinstance(line.trigger, Term) else None) for line in scenario.events
@@ -81,30 +81,24 @@ class _Play:
         with deep_recursion():
             return self.dynamics.compiler.term(term, 0)
 
-    def _begin(self, state: State) -> None:
+    def _begin(self) -> None:
         """The initial state, and the world that is real: the first possible one of which everything given is true."""
-        real = state
-        for given in self.scenario.givens:
-            if isinstance(given, Assignment):
-                slot = self.dynamics.layout.places[given.fluent].slot(given.args)
-                if isinstance(shown(state)[slot], Unknown):
-                    real = self._narrowed(real, lambda world, s=slot, v=given.value: world[s] == v, given)  # type: ignore[misc]
-                else:
-                    state, real = with_value(state, slot, given.value), with_value(real, slot, given.value)
+        places = self.dynamics.layout.places
+        values = [given for given in self.scenario.givens if isinstance(given, Assignment)]
+        self.state = self.dynamics.initial({places[each.fluent].slot(each.args): each.value for each in values})
+        real = self.state
         for given in self.scenario.givens:
             if isinstance(given, Assumption):
-                holds = self._formula(given.condition)
-                real = self._narrowed(real, lambda world, h=holds: h(world, ()), given)  # type: ignore[misc]
-        self.state, self.world = state, self.dynamics.realize(real)
+                real = self._narrowed(real, given)
+        self.world = self.dynamics.realize(real)
         self.invariants.check(self.now, None, self.scenario.span)
 
-    def _narrowed(self, real: State, holds: Callable[[Readable], Any], given: Given) -> State:
-        cases = [case for case, found in survey(real, holds) if found]
+    def _narrowed(self, real: State, given: Assumption) -> State:
+        holds = self._formula(given.condition)
+        cases = [case for case, found in survey(real, lambda world: holds(world, ())) if found]
         if not cases:
-            why = ""
-            if isinstance(given, Assumption):
-                why = valued(false_parts(self.dynamics, real, given.condition)[0])
-            raise failed("this is not so in the initial state", given.span, why)
+            why = false_parts(self.dynamics, real, given.condition)[0]
+            raise failed("this is not so in the initial state", given.span, valued(why))
         return keep(real, cases)
 
     @property

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import cast
 
 from golc.situation.interpret import Interpreter
@@ -18,13 +18,16 @@ from golc.theory.theory import Fluent
 from golc.theory.types import Value, show_call
 
 
-def initial_state(interpreter: Interpreter) -> State:
-    """What is possible at first; raises ``ProgramError`` if nothing is, or an initial value is no value."""
+def initial_state(interpreter: Interpreter, given: Mapping[int, Value]) -> State:
+    """What is possible at first; ``given`` are values of slots that replace those of the theory.
+
+    Raises ``ProgramError`` if nothing is possible, or an initial value is no value.
+    """
     base: list[Value] = []
     options: dict[int, Sequence[Value]] = {}
     for slot, (name, args) in enumerate(interpreter.layout.ground_fluents):
         fluent = interpreter.theory.fluents[name]
-        values = _values(interpreter, fluent, args)
+        values = (given[slot],) if slot in given else _values(interpreter, fluent, args)
         base.append(values[0])
         if len(values) > 1:
             options[slot] = values

@@ -14,10 +14,12 @@ from typing import Any, NamedTuple
 
 from golc.situation import collections, guards
 from golc.situation.collections import known_value, listed
+from golc.situation.happened import before
 from golc.situation.layout import Layout, Place
 from golc.situation.worlds import ASK
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
+    Before,
     Binder,
     Choice,
     Comprehension,
@@ -172,6 +174,9 @@ class Compiler:
             case Epistemic(kind=kind, body=body):
                 function, names = self._function_of(body, cells)
                 return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
+            case Before(body=body):
+                function, names = self._function_of(body, cells)
+                return f"{self.bind('before', before)}({', '.join([function, *names])})"
             case _:
                 raise AssertionError(term)
 

@@ -6,8 +6,9 @@ so that no answer here gets slower with time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Any, TypeAlias, cast
 
 from golc.diagnostics import Span
@@ -71,10 +72,10 @@ class Dynamics:
         self._sense = _Lazy(self._compile_sense)
         self._cost = _Lazy(self._compile_cost)
 
-    def initial(self) -> State:
-        """The initial state."""
+    def initial(self, given: Mapping[int, Value] = MappingProxyType({})) -> State:
+        """The initial state; ``given`` are values of slots that replace those of the theory."""
         with deep_recursion(EVALUATION):
-            return initial_state(self.interpreter)
+            return initial_state(self.interpreter, given)
 
     def possible(self, state: State, action: str, args: Args) -> bool:
         """Whether the action's preconditions are known to hold."""

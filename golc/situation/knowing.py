@@ -17,7 +17,8 @@ from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
 from golc.theory import errors
 from golc.theory.evaluate import Env
-from golc.theory.terms import Binder, DefinedTerm, FluentTerm, PossTerm, StaticTerm, Term, Variable, subterms
+from golc.theory.reading import fluents_read
+from golc.theory.terms import Binder, DefinedTerm, FluentTerm, StaticTerm, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import Unknown, Value, show, show_call
 
@@ -122,29 +123,9 @@ class Knowing:
 
     def sensing(self, term: Term) -> list[str]:
         """The primitive actions that sense something that a term depends on."""
-        fluents = self._depends_on(term)
-        return [
-            action.name
-            for action in self.theory.actions.values()
-            if any(fluents & self._depends_on(sensed) for sensed in action.senses)
-        ]
-
-    def _depends_on(self, term: Term) -> set[str]:
-        fluents: set[str] = set()
-        seen: set[str] = set()
-        stack = [term]
-        while stack:
-            for part in subterms(stack.pop()):
-                match part:
-                    case FluentTerm(fluent=name):
-                        fluents.add(name)
-                    case DefinedTerm(definition=name) if name not in seen:
-                        seen.add(name)
-                        stack.append(self.theory.definitions[name].body)
-                    case PossTerm(action=name) if f"{name}()" not in seen:
-                        seen.add(f"{name}()")
-                        stack.extend(self.theory.actions[name].preconditions)
-        return fluents
+        fluents = fluents_read(self.theory, [term])
+        actions = self.theory.actions.values()
+        return [action.name for action in actions if fluents & fluents_read(self.theory, action.senses)]
 
     def _listed(self, function: Asked) -> Asked:
         return lambda state, env: tuple(function(state, env))

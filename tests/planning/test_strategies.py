@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from golc.diagnostics import Findings, Source
 from golc.planning.limits import Limits
-from golc.planning.planner import Executable, Plan, Planning, executable
+from golc.planning.planner import Executable, Planning, executable
+from golc.planning.plans import Plan
 from golc.program.labels import Act
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
