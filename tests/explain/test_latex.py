@@ -83,8 +83,9 @@ fluent g(x: t): t = unknown
 define d := (count x: t where f(x) % 2 = 1. f(x) < 3) + (sum x: t. f(x) // 2 * -abs(f(x)))
 define e := d if f(a) != 1 and (f(b) <= 2 iff d >= 3) else min(1, d)
 define k(x: t) := knows(f(x) = 1) or possible(g(x) = a) implies known(g(x)) and x not in {a}
+action rest(x: t)
 action spin(x: t):
-    poss exists y: t where y = x. forall z: t. z in t and poss(spin(z))
+    poss exists y: t where y = x. forall z: t. z in t and poss(rest(z))
     causes g(x) := one of {a, b} when f(x) > e
 """
 
