@@ -7,9 +7,10 @@ from itertools import chain
 
 from golc.explain import signs
 from golc.explain.document import Document, join
-from golc.explain.formulas import NOT, OR, SUM, Formulas, quantified
+from golc.explain.formulas import Formulas
 from golc.explain.logic import conjuncts
 from golc.explain.page import Page, Section, called, conjunction, enclosed, head, implied, says
+from golc.explain.pieces import NOT, OR, SUM, quantified
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Choice, Literal, Term
 from golc.theory.theory import Action, BasicActionTheory, Effect, Prune
@@ -87,7 +88,7 @@ def _changes_knowledge(theory: BasicActionTheory, action: Action) -> bool:
 
 
 def _this(formulas: Formulas, action: Action) -> Document:
-    return formulas.applied(signs.words(action.name), formulas.variables())
+    return formulas.applied(signs.words(action.name), formulas.names)
 
 
 def _precondition(formulas: Formulas, action: Action, this: Document) -> Document:

@@ -9,8 +9,9 @@ from golc.explain import signs
 from golc.explain.actions import is_successor, leaves_open, worlds_after
 from golc.explain.axioms import Cause, SuccessorState, successor_state
 from golc.explain.document import Document, Line, Nest, Text, join, separated
-from golc.explain.formulas import NOT, OR, SUM, Formulas, infixed, quantified, type_text
+from golc.explain.formulas import Formulas
 from golc.explain.page import Page, Section, called, conjunction, enclosed, head, implied, says
+from golc.explain.pieces import NOT, OR, SUM, infixed, quantified, type_text
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Choice, Literal
 from golc.theory.theory import BasicActionTheory, Fluent
@@ -51,7 +52,7 @@ def _initially(formulas: Formulas, fluent: Fluent) -> Iterator[Document]:
 
 
 def _fluent(formulas: Formulas, fluent: Fluent, situation: Document) -> Document:
-    return formulas.applied(signs.words(fluent.name), formulas.variables()[: len(fluent.parameters)], situation)
+    return formulas.applied(signs.words(fluent.name), formulas.names[: len(fluent.parameters)], situation)
 
 
 def _successor(formulas: Formulas, theory: BasicActionTheory, fluent: Fluent) -> Iterator[Section]:
@@ -111,7 +112,7 @@ class _Writer:
 
     def gamma(self, sign: Text, value: Document | None = None) -> Document:
         """``γ(x, y, a, s)``."""
-        args = self.formulas.variables()[: len(self.axiom.parameters)]
+        args = self.formulas.names[: len(self.axiom.parameters)]
         values = [] if value is None else [value]
         return self.formulas.applied(sign, [*args, *values, signs.ACTION], signs.SITUATION)
 

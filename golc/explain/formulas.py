@@ -8,7 +8,26 @@ from itertools import chain
 
 from golc.explain import signs
 from golc.explain.document import Document, Group, Line, Nest, Text, join, separated
-from golc.syntax.notation import string
+from golc.explain.pieces import (
+    AGGREGATES,
+    AND,
+    ATOM,
+    BRACKETS,
+    COMPARISON,
+    IMPLICATION,
+    INFIX,
+    NEGATION,
+    NOT,
+    OPEN,
+    OR,
+    PRODUCT,
+    SUM,
+    infixed,
+    listed,
+    quantified,
+    type_text,
+    value_text,
+)
 from golc.theory.reading import reached
 from golc.theory.terms import (
     Before,
@@ -31,36 +50,7 @@ from golc.theory.terms import (
 )
 from golc.theory.terms import Text as Message
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import BOOL, STRING, Collection, Optional, Type, Value, show
-
-OPEN, IMPLICATION, OR, AND, NOT, COMPARISON, SUM, PRODUCT, NEGATION, ATOM = range(10)
-"""How tightly the forms bind, the loosest first."""
-
-INFIX: dict[Operator, tuple[int, int, int, str, str]] = {
-    Operator.EQUAL: (COMPARISON, SUM, SUM, "=", "="),
-    Operator.DIFFERENT: (COMPARISON, SUM, SUM, "≠", r"\neq"),
-    Operator.LESS: (COMPARISON, SUM, SUM, "<", "<"),
-    Operator.LESS_EQUAL: (COMPARISON, SUM, SUM, "≤", r"\leq"),
-    Operator.GREATER: (COMPARISON, SUM, SUM, ">", ">"),
-    Operator.GREATER_EQUAL: (COMPARISON, SUM, SUM, "≥", r"\geq"),
-    Operator.ELEMENT: (COMPARISON, SUM, SUM, "∈", r"\in"),
-    Operator.ADD: (SUM, SUM, PRODUCT, "+", "+"),
-    Operator.SUBTRACT: (SUM, SUM, PRODUCT, "-", "-"),
-    Operator.UNION: (SUM, SUM, PRODUCT, "∪", r"\cup"),
-    Operator.DIFFERENCE: (SUM, SUM, PRODUCT, "∖", r"\setminus"),
-    Operator.CONCATENATION: (SUM, SUM, PRODUCT, "⌢", r"\frown"),
-    Operator.REMOVAL: (SUM, SUM, PRODUCT, "∖", r"\setminus"),
-    Operator.MULTIPLY: (PRODUCT, PRODUCT, NEGATION, "·", r"\cdot"),
-    Operator.MODULO: (PRODUCT, PRODUCT, NEGATION, "mod", r"\bmod"),
-}
-"""How tightly an operation binds, what its operands need, and its sign."""
-
-AGGREGATES = {
-    "count": Text("#", r"\#"),
-    "sum": Text("∑", r"\sum "),
-    "min": Text("min", r"\min "),
-    "max": Text("max", r"\max "),
-}
+from golc.theory.types import BOOL, Collection
 
 
 @dataclass(frozen=True)
@@ -100,10 +90,6 @@ class Formulas:
             of_type = join(name, signs.COLON, type_text(binder.variable.type))
             parts.append(of_type if within is None else join(name, signs.IN, within))
         return inner, separated(parts, signs.sign(", "))
-
-    def variables(self, first: int = 0) -> list[Document]:
-        """The names of the variables in scope from a level on."""
-        return list(self.names[first:])
 
     def applied(self, name: Text, args: Sequence[Document], situation: Document | None = None) -> Document:
         """``f(x, s)``; without arguments the name alone."""
@@ -295,42 +281,6 @@ class Formulas:
                 return listed("set", self._terms(elements))
             case _:
                 return self.term(term, SUM, False)
-
-
-BRACKETS = {
-    "list": (signs.sign("["), signs.sign("]")),
-    "set": (Text("{", r"\{"), Text("}", r"\}")),
-}
-
-
-def infixed(sign: Text, operands: Sequence[Document]) -> Document:
-    """``a ∧ b ∧ c``, with the sign at the beginning of a line where it is broken."""
-    return Group(separated([Nest(operand) for operand in operands], Line(), sign))
-
-
-def quantified(sign: Text, binders: Document, body: Document) -> Document:
-    """``∃x: t. φ``."""
-    return Group(join(sign, binders, Text(".", r".\;"), Nest(join(Line(), body))))
-
-
-def type_text(type_: Type) -> Document:
-    """A type by its name, or written out."""
-    match type_:
-        case Optional(base=base):
-            return join(type_text(base), signs.UNION, signs.words("{none}"))
-        case _:
-            return signs.words(str(type_))
-
-
-def value_text(value: Value, type_: Type) -> Document:
-    """A value; a string in quotes."""
-    return signs.words(string(str(value)) if type_ == STRING else show(value))
-
-
-def listed(kind: str, parts: Sequence[Document]) -> Document:
-    """Parts in brackets, with commas between them."""
-    opening, closing = BRACKETS[kind]
-    return join(opening, Nest(separated(parts, signs.sign(","), Line())), closing)
 
 
 def _name(name: str, index: int) -> Text:

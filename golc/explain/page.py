@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from golc.diagnostics import Span
 from golc.explain import signs
 from golc.explain.document import Document, Group, Line, Nest, Text, join
-from golc.explain.formulas import infixed
+from golc.explain.pieces import infixed
 from golc.theory.theory import Parameter
 
 

@@ -10,8 +10,9 @@ from golc.explain import signs
 from golc.explain.actions import action_page, prune_page
 from golc.explain.document import Document, Line, Nest, join
 from golc.explain.fluents import fluent_page
-from golc.explain.formulas import OR, SUM, Formulas, type_text, value_text
+from golc.explain.formulas import Formulas
 from golc.explain.page import Page, Section, head, implied, says
+from golc.explain.pieces import OR, SUM, type_text, value_text
 from golc.explain.programs import program
 from golc.theory.recursion import deep_recursion
 from golc.theory.suggest import did_you_mean
@@ -83,7 +84,7 @@ def _formulas(theory: BasicActionTheory, parameters: tuple[Parameter, ...]) -> F
 def _definition(theory: BasicActionTheory, definition: Definition) -> Page:
     name = definition.name
     formulas = _formulas(theory, definition.parameters).at(signs.SITUATION)
-    left = formulas.applied(signs.words(name), formulas.variables(), formulas.situation_of(name))
+    left = formulas.applied(signs.words(name), formulas.names, formulas.situation_of(name))
     sections = [Section("Definition", (_defined(formulas, left, definition),))]
     kind = "goal" if name in theory.goals else "invariant" if name in theory.invariants else "define"
     if kind == "invariant":
@@ -104,7 +105,7 @@ def _static(theory: BasicActionTheory, static: Static) -> Page:
     if isinstance(static.body, Mapping):
         rows = tuple([_row(formulas, static, args, value) for args, value in static.body.items()])
         return Page(title, static.span, (Section("Definition", rows),))
-    left = formulas.applied(signs.words(static.name), formulas.variables())
+    left = formulas.applied(signs.words(static.name), formulas.names)
     definition = Definition(static.name, static.parameters, static.type, static.body)
     return Page(title, static.span, (Section("Definition", (_defined(formulas, left, definition),)),))
 
@@ -129,7 +130,7 @@ def _symbol(theory: BasicActionTheory, name: str) -> Iterator[Page]:
 
 def _procedure(theory: BasicActionTheory, procedure: Procedure) -> Page:
     formulas = Formulas(theory).extended([parameter.name for parameter in procedure.parameters])
-    call = formulas.applied(signs.words(procedure.name), formulas.variables())
+    call = formulas.applied(signs.words(procedure.name), formulas.names)
     body = Nest(join(Line(always=True), program(formulas, procedure.body)))
     whole = join(signs.keyword("proc "), call, body, Line(always=True), signs.keyword("endProc"))
     title = head("procedure", procedure.name, procedure.parameters)

@@ -7,8 +7,9 @@ from fractions import Fraction
 
 from golc.explain import signs
 from golc.explain.document import Document, Group, Line, Nest, Text, join, separated
-from golc.explain.formulas import ATOM, SUM, Formulas, infixed, listed, value_text
+from golc.explain.formulas import Formulas
 from golc.explain.logic import negated
+from golc.explain.pieces import ATOM, SUM, infixed, listed, value_text
 from golc.theory import statements as st
 from golc.theory.terms import Base
 from golc.theory.types import REAL
