@@ -160,7 +160,7 @@ def _view(machine: Machine, instruction: Instruction, value: Value) -> Run:
     return lambda task: machine.display.select(read(task))
 
 
-def _user_view(machine: Machine, instruction: Instruction, decimals: int, value: Value) -> Run:
+def _user_view(machine: Machine, instruction: Instruction, hidden: int, decimals: int, value: Value) -> Run:
     """The value is shown as it is at any time from now on, so it cannot be a task's own variable."""
     read = reader(machine, value)
     if value.source in (Source.VARIABLE, Source.INDIRECT) and value.argument >= len(machine.variables):

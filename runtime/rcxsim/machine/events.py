@@ -1,8 +1,9 @@
 """Events of firmware 2.0: sixteen of them, each looks at a source and happens when it does something.
 
-How the ranges, hysteresis and clicks work is from the NQC guide. Not known are the limits before a program sets them
-and what calibration does to them: here nothing is low or high at first, and calibration takes the given parts of the
-value that the source has 50 ms later.
+How the ranges, hysteresis and clicks work is from the NQC guide. Not known are the limits before a program sets them,
+what calibration does to them, and whether an event happens if its source is in the range from the beginning: here
+nothing is low or high before limits are set, calibration takes the given parts of the value that the source has 50 ms
+later, and a source that was always low has not become low.
 """
 
 from __future__ import annotations
@@ -121,7 +122,9 @@ class Event:
         before, self.state = self.state, self._range(value)
         if self.kind in (Kind.CLICK, Kind.DOUBLE_CLICK):
             return self._click(before, now)
-        return before is not self.state and RANGES.get(self.kind or Kind.CLEAR) is self.state
+        if before in (State.UNDEFINED, self.state):
+            return False  # what it was before nobody knows, or nothing has changed
+        return RANGES.get(self.kind or Kind.CLEAR) is self.state
 
     def _range(self, value: int) -> State:
         """It is a little harder to leave the low or the high range than to get into it."""

@@ -229,11 +229,10 @@ class Machine:
 
     def _look(self, at: int) -> None:
         raws = self._surroundings.sense([sensor.powered for sensor in self.inputs], at)
-        for number, (sensor, raw) in enumerate(zip(self.inputs, raws, strict=True)):
+        for sensor, raw in zip(self.inputs, raws, strict=True):
             sensor.look(raw)
-            if self._trace.read and sensor.value != self._seen[number]:
-                self._seen[number] = sensor.value
-                self._trace.tell(at / 1e6, "sensor", input=number + 1, value=sensor.value, raw=raw)
+        if self._trace.read:
+            self._tell_sensors(at)
         for button in self._surroundings.pressed(at):
             self.press(button)
         self.events.look(self.now)
@@ -242,6 +241,13 @@ class Machine:
             self._busy_at = self.now
         elif self._minutes and self.now - self._busy_at >= self._minutes * MINUTE:
             self.switch(False)
+
+    def _tell_sensors(self, at: int) -> None:
+        for number, sensor in enumerate(self.inputs):
+            value = sensor.value
+            if value != self._seen[number]:
+                self._seen[number] = value
+                self._trace.tell(at / 1e6, "sensor", input=number + 1, value=value, raw=sensor.raw)
 
     def _read_for_event(self, source: int) -> events.Reading:
         if source in events.SENSORS:
