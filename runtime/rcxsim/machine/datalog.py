@@ -29,6 +29,11 @@ class Datalog:
         return (self.size + 1) * ENTRY_BYTES if self.size else 0
 
     @property
+    def next(self) -> int:
+        """Bytes that are filled."""
+        return (len(self._entries) + 1) * ENTRY_BYTES if self.size else 0
+
+    @property
     def entries(self) -> Sequence[tuple[int, int]]:
         """Type and value of each entry."""
         return [(SIZE_TYPE, len(self._entries) + 1), *self._entries]

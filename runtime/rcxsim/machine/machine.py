@@ -99,6 +99,10 @@ class Machine:
                 self.stop_all()
                 raise
 
+    def due(self) -> int:
+        """When it does something next."""
+        return max(self.now, min(self._look_at, self.processor.wake()))
+
     @property
     def seconds(self) -> float:
         """The clock, for a trace."""
@@ -149,9 +153,13 @@ class Machine:
 
     # Messages, the datalog, switching off.
 
+    def heard(self) -> None:
+        """A packet has come: the brick has something to do."""
+        self._busy_at = self.now
+
     def hear(self, message: int) -> None:
         """A message has come: it takes the place of the one before."""
-        self._busy_at = self.now
+        self.heard()
         self.set_message(message)
 
     def set_message(self, message: int) -> None:

@@ -9,18 +9,24 @@ from golc.bytecode.image import RCX, RCX2
 
 
 class Firmware(Enum):
-    """A version of the firmware: the target of its images, its number, µs an op code, variables of a task's own.
+    """A version of the firmware.
+
+    Its first digit, the target of its images, its number as programs and as hosts read it, microseconds an op code,
+    variables of a task's own.
 
     2.0 ms an op code were measured on a brick with firmware 1.0; 2.6 to 2.9 ms, and 3.2 ms, are reported of 2.0.
     """
 
-    V1 = (1, RCX, 309, 2000, 0)
-    V2 = (2, RCX2, 332, 2800, 16)
+    V1 = (1, RCX, 309, (3, 9), 2000, 0)
+    V2 = (2, RCX2, 332, (3, 0x0302), 2800, 16)
 
-    def __init__(self, major: int, target: int, version: int, op_time: int, own_variables: int) -> None:
+    def __init__(
+        self, major: int, target: int, version: int, words: tuple[int, int], op_time: int, own_variables: int
+    ) -> None:
         self.major = major
         self.target = target
         self.version = version
+        self.words = words
         self.op_time = op_time
         self.own_variables = own_variables
 

@@ -50,6 +50,11 @@ class Task:
     def running(self) -> bool:
         return self.wake != NEVER
 
+    @property
+    def within(self) -> list[Code]:
+        """The code that it executes, and that to which it returns."""
+        return [code for code in (self.code, self.back and self.back[0]) if code is not None]
+
     def start(self, code: Code, now: int) -> None:
         """Begin at the top, whatever was before."""
         self.stop()
