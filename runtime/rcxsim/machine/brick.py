@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
-
 from golc.runtime.rcxsim.frames import TOGGLE, message_in
 from golc.runtime.rcxsim.line import Air
 from golc.runtime.rcxsim.machine.error import MachineError
@@ -29,6 +27,8 @@ class MachineBrick:
         self._requests = Requests(self.machine, trace)
         self._remote = Remote(self.machine)
         self._ran = False
+        self.error: MachineError | None = None
+        """Why the program was stopped last."""
 
     def hear(self, payload: bytes, now: float, air: Air) -> None:
         """Take a packet; a brick that is off does not."""
@@ -50,8 +50,10 @@ class MachineBrick:
         self._radio.air = air
         end = _microseconds(until)
         while self.machine.now < end:
-            with contextlib.suppress(MachineError):
+            try:
                 self.machine.run(end)
+            except MachineError as error:
+                self.error = error
         self._radio.air = None
 
     def due(self) -> float | None:

@@ -83,3 +83,7 @@ class Options:
     """How many sounds wait to be played; unknown."""
     fast_change: int = 50
     """Difference of raw values from one look to the next that is a fast change; unknown."""
+
+    def __post_init__(self) -> None:
+        if self.op_time == 0 or self.look == 0 or self.light[1] == 0:
+            raise ValueError("op_time, look and the divisor of light are at least 1")
