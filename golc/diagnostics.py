@@ -93,7 +93,7 @@ class Code(Enum):
     DOMAIN = ("GL009", "the domain line is missing or out of place")
 
     # 010..049: names, types, declarations
-    UNSUPPORTED = ("GL010", "a part of the language that is not supported yet")
+    NO_FILE = ("GL010", "an import in a text that is no file")
     DUPLICATE = ("GL011", "a name is declared twice")
     UNKNOWN_NAME = ("GL012", "a name is not declared")
     UNKNOWN_ACTION = ("GL013", "an action or a procedure is not declared")
@@ -120,9 +120,13 @@ class Code(Enum):
     NO_INITIAL = ("GL050", "a fluent has no initial value")
     INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
     INVARIANT_AT_FIRST = ("GL052", "an invariant is false in the initial state")
+    NO_INITIAL_WORLD = ("GL053", "what is said of the initial situation leaves no possible world")
+
+    IDLE_CONSTRAINT = ("GL054", "a constraint on the initial situation rules nothing out")
 
     # 060..069: knowledge
     NO_CHOICE = ("GL060", "a fluent is one of no values")
+    NEVER_KNOWN = ("GL061", "something is asked that can never be known")
 
     # 070..079: programs
     UNREACHABLE = ("GL070", "an interrupt is not reached")
@@ -137,11 +141,15 @@ class Code(Enum):
     ENDLESS_RECURSION = ("GL106", "a recursion does not end")
     RUNS_IN_CIRCLES = ("GL107", "the program runs in circles")
     BLOCKED = ("GL108", "the program is blocked and nothing can unblock it")
+    NO_ELEMENT = ("GL109", "a list has no such element")
     EVENTS = ("GL110", "a line of an events file cannot be understood")
     EVENT = ("GL111", "an action is written that cannot be reported or performed so")
     IMPOSSIBLE_EVENT = ("GL112", "an exogenous action has occurred that the theory thinks impossible")
     ABORTED = ("GL113", "the program has ended itself as failed")
     WAITS_FOR_EVER = ("GL114", "the program waits and nothing can happen any more")
+    SURPRISE = ("GL115", "a device senses what the theory thinks impossible")
+    UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
+    TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 

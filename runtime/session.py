@@ -22,7 +22,7 @@ from golc.runtime.loop.executive import Executive, Outcome
 from golc.runtime.loop.happenings import Observer, Remedy
 from golc.runtime.loop.inbox import Inbox
 from golc.runtime.loop.inbox import Source as EventSource
-from golc.runtime.loop.policy import OnImpossible, Policy
+from golc.runtime.loop.policy import OnImpossible, OnSurprise, Policy
 from golc.runtime.observers.journal import Journal
 from golc.runtime.observers.trace import BOLD, DIM, MARGIN, Style, Trace, summary
 from golc.runtime.signals import ending_on_signals
@@ -31,6 +31,7 @@ from golc.runtime.sources.listener import Listener
 from golc.runtime.sources.polling import Poller
 from golc.runtime.sources.schedule import Schedule, read_schedule
 from golc.theory.ground import Call, one_of, read_value
+from golc.theory.order import arranged
 from golc.theory.statements import Message
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
@@ -49,6 +50,7 @@ class Settings:
     journal: Path | None = None
     stop_when_idle: float | None = None
     on_impossible: OnImpossible = OnImpossible.APPLY
+    on_surprise: OnSurprise = OnSurprise.APPLY
     on_failure: Remedy | None = None
     """None: ask the operator."""
     check_invariants: bool = False
@@ -170,6 +172,7 @@ class _Session:
         idle = settings.stop_when_idle
         return Policy(
             on_impossible=settings.on_impossible,
+            on_surprise=settings.on_surprise,
             on_failure=AskAboutFailure(self.desk, self.show)
             if settings.on_failure is None
             else always(settings.on_failure),
@@ -207,8 +210,12 @@ class _Session:
 
     def speak(self, message: Message, args: Args) -> str:
         """The text of a message now."""
-        state, evaluate = self.executive.state, self.dynamics.interpreter.evaluate
-        return "".join(part if isinstance(part, str) else show(evaluate(part, state, args)) for part in message.parts)
+        state, evaluate = self.executive.state, self.dynamics.knowing.evaluate
+        texts = []
+        for part in message.parts:
+            text = part if isinstance(part, str) else show(arranged(evaluate(part, state, args), part.type))
+            texts.append(text)
+        return "".join(texts)
 
     def show(self, what: str) -> str:
         """The state or the history as text."""

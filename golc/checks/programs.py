@@ -24,7 +24,8 @@ def check_programs(theory: BasicActionTheory, findings: Findings) -> None:
 def _check_interrupts(theory: BasicActionTheory, handlers: tuple[Interrupt, ...], findings: Findings) -> None:
     for index, handler in enumerate(handlers):
         below = handlers[index + 1 :]
-        if below and _always(theory, handler.condition):
+        may_be_empty = any(binder.within is not None for binder in handler.binders)
+        if below and not may_be_empty and _always(theory, handler.condition):
             _hides_all(handler, below[0], steps_always(theory, handler.body), findings)
             return  # what is below is not reached, so nothing more is to be said of it
         if not handler.binders and steps_always(theory, handler.body):
@@ -64,7 +65,7 @@ def _always(theory: BasicActionTheory, condition: Term) -> bool:
     if any(isinstance(part, (FluentTerm, PossTerm, Variable)) for part in subterms(condition)):
         return False
     try:
-        return Closed(theory.statics.get, theory.definitions.get, steps=1000).evaluate(condition) is True
+        return Closed(theory.statics.get, theory.definitions.get, steps=1000).value(condition) is True
     except NoValueError:
         return False
 

@@ -4,14 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from golc.situation import errors
+from golc.theory import errors
+from golc.theory.evaluate import DEPTH
+from golc.theory.order import arranged
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Operation, Quantified, Term
 from golc.theory.theory import Static
-from golc.theory.types import Type, Value, show_call
+from golc.theory.types import Type, Value, show, show_call
 
 MOST_REMEMBERED = 100_000
 """How many values of one static function are kept."""
+
+
+class Depth:
+    """How many calls of static functions are open, whichever they are."""
+
+    open = 0
 
 
 class Positions(dict[Value, int]):
@@ -30,26 +38,28 @@ class Memo(dict[tuple[Value, ...], Value]):
 
     function: Callable[..., Value]
 
-    def __init__(self, static: Static) -> None:
+    def __init__(self, static: Static, depth: Depth) -> None:
         super().__init__()
         self._static = static
-        self._within = False
+        self._depth = depth
 
     def __missing__(self, args: tuple[Value, ...]) -> Value:
-        if self._within:
+        if self._depth.open:
             return self._compute(args)
-        self._within = True
-        try:
-            with deep_recursion(EVALUATION):
-                return self._compute(args)
-        except RecursionError:
-            raise errors.endless(self._static.span, self._static.name) from None
-        finally:
-            self._within = False
+        with deep_recursion(EVALUATION):
+            return self._compute(args)
 
     def _compute(self, args: tuple[Value, ...]) -> Value:
-        static = self._static
-        value = self.function((), *args)
+        static, depth = self._static, self._depth
+        if depth.open >= DEPTH:
+            raise errors.endless(static.span, static.name)
+        depth.open += 1
+        try:
+            value = self.function((), *args)
+        except RecursionError:
+            raise errors.endless(static.span, static.name) from None
+        finally:
+            depth.open -= 1
         if value not in static.type:
             assert not isinstance(static.body, Mapping)
             raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
@@ -75,12 +85,12 @@ def check(type_: Type, failure: Callable[[Value], Exception]) -> Callable[[Value
     return check
 
 
-def some(term: Term) -> Callable[[Value], Value]:
-    """A function that gives its argument back unless it is ``none``."""
+def some(term: Term, what: str) -> Callable[[Value], Value]:
+    """A function that gives its argument back unless it is ``none``; ``what`` says what the term is."""
 
     def some(value: Value) -> Value:
         if value is None:
-            raise errors.nothing(term.span, "an operand")
+            raise errors.nothing(term.span, what)
         return value
 
     return some
@@ -107,3 +117,47 @@ def extremum(term: Quantified) -> Callable[[list[int]], int]:
         return choose(values)
 
     return extremum
+
+
+def first(term: Operation) -> Callable[[tuple[Value, ...]], Value]:
+    """The first element of a list, which must not be empty."""
+
+    def first(whole: tuple[Value, ...]) -> Value:
+        if not whole:
+            raise errors.empty_list(term.span, "first")
+        return whole[0]
+
+    return first
+
+
+def rest(term: Operation) -> Callable[[tuple[Value, ...]], Value]:
+    """A list without its first element; it must not be empty."""
+
+    def rest(whole: tuple[Value, ...]) -> Value:
+        if not whole:
+            raise errors.empty_list(term.span, "rest")
+        return whole[1:]
+
+    return rest
+
+
+def index(term: Operation) -> Callable[[tuple[Value, ...], int], Value]:
+    """The element of a list at a place that the list must have."""
+
+    def index(whole: tuple[Value, ...], place: int) -> Value:
+        if not 0 <= place < len(whole):
+            raise errors.index_outside(term.span, place, len(whole))
+        return whole[place]
+
+    return index
+
+
+def removal(whole: tuple[Value, ...], gone: tuple[Value, ...]) -> tuple[Value, ...]:
+    """The elements of a list that do not occur in another one."""
+    without = set(gone)
+    return tuple([element for element in whole if element not in without])
+
+
+def text(type_: Type) -> Callable[[Value], str]:
+    """What a value of a type looks like in a text."""
+    return lambda value: show(arranged(value, type_))

@@ -16,6 +16,8 @@ from typing import Any, Literal, TypeAlias, cast, overload
 
 Value: TypeAlias = Hashable
 
+Number: TypeAlias = int | Fraction
+
 
 @dataclass(frozen=True)
 class Type:
@@ -205,7 +207,31 @@ class Collection(Type):
         return frozenset({self.kind})
 
     def __str__(self) -> str:
-        return f"{self.kind}[{self.element}]"
+        return f"{self.kind}[{self.element}]" if self.element.kinds else f"empty {self.kind}"
+
+
+@dataclass(frozen=True)
+class Unknown:
+    """What is shown in place of a value that the agent does not know: the possible ones."""
+
+    values: tuple[Value, ...]
+
+
+class InOrder(frozenset[Value]):
+    """A set to be written, with its elements in the order in which they are."""
+
+    order: tuple[Value, ...] = ()
+
+    @classmethod
+    def of(cls, order: Iterable[Value]) -> InOrder:
+        """The set of some elements."""
+        made = cls(order := tuple(order))
+        made.order = order
+        return made
+
+
+class Quoted(str):
+    """A string to be written in quotes."""
 
 
 NONE = Optional(Enumeration(()))
@@ -232,18 +258,32 @@ def show(value: Value) -> str:
     match value:
         case None:
             return "none"
+        case Unknown(values=values):
+            return _alternatives([show(each) for each in values[:MOST_ALTERNATIVES]], len(values))
         case bool():
             return "true" if value else "false"
         case int() if value.bit_length() > MOST_BITS:
             return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
+        case Fraction(denominator=1):
+            return show(value.numerator)
         case Fraction():
-            return _decimal(value)
+            return _decimal(value) if value.denominator > 1 else show(value.numerator)
         case frozenset():
-            return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
+            return "{" + ", ".join(map(_part, _in_order(value))) + "}"
         case tuple():
             return "[" + ", ".join(map(_part, value)) + "]"
         case _:
             return str(value)
+
+
+MOST_ALTERNATIVES = 5
+"""How many possible values are named for one that is not known."""
+
+
+def _alternatives(named: list[str], count: int) -> str:
+    if count > len(named):
+        return f"{', '.join(named)}, … ({count} possible values)"
+    return " or ".join(filter(None, [", ".join(named[:-1]), named[-1]]))
 
 
 def _decimal(value: Fraction) -> str:
@@ -259,14 +299,18 @@ def _decimal(value: Fraction) -> str:
 
 
 def _part(value: Value) -> str:
-    """A value beside others: there a string that is no single word stands in quotes."""
-    if isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value):
+    """A value beside others: there a string that is no single word, or known to be no symbol, stands in quotes."""
+    if isinstance(value, Quoted) or (isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value)):
         return '"' + value.translate(ESCAPED) + '"'
     return show(value)
 
 
-def _rank(value: Value) -> tuple[int, Any]:
-    """What brings the elements of a set into an order where their type is not at hand."""
+def _in_order(value: frozenset[Value]) -> Iterable[Value]:
+    return value.order if isinstance(value, InOrder) else sorted(value, key=rank)
+
+
+def rank(value: Value) -> tuple[int, Any]:
+    """A key for values of any types: what brings the elements of a set into an order where their type says none."""
     match value:
         case None:
             return 0, 0
@@ -275,9 +319,9 @@ def _rank(value: Value) -> tuple[int, Any]:
         case int() | Fraction():
             return 2, value
         case frozenset():
-            return 4, sorted(map(_rank, value))
+            return 4, sorted(map(rank, value))
         case tuple():
-            return 5, tuple(map(_rank, value))
+            return 5, tuple(map(rank, value))
         case _:
             return 3, value
 
@@ -285,14 +329,16 @@ def _rank(value: Value) -> tuple[int, Any]:
 def writable(thing: object) -> object:
     """A structure of values for JSON: a set is a list, a number that would not be exact there the text of ``show``."""
     match thing:
+        case Unknown(values=values):
+            return {"one of": writable(values)}
         case Mapping():
             return {name: writable(part) for name, part in thing.items()}
         case list() | tuple():
             return [writable(part) for part in thing]
         case frozenset():
-            return [writable(part) for part in sorted(thing, key=_rank)]
+            return [writable(part) for part in _in_order(thing)]
         case Fraction():
-            return _number(show(thing))
+            return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
             return show(thing)
         case _:

@@ -41,11 +41,10 @@ from golc.runtime.loop.happenings import (
 )
 from golc.runtime.loop.inbox import Inbox, Source
 from golc.runtime.loop.intake import Intake
-from golc.runtime.loop.policy import Policy
+from golc.runtime.loop.policy import OnSurprise, Policy, surprising
 from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
-from golc.situation.layout import State
-from golc.theory.types import show_call
+from golc.situation.worlds import State
 
 A_MOMENT = 0.05
 """Real seconds after which a run that would be idle asks again whether a device still has something to report."""
@@ -212,6 +211,8 @@ class Executive(Intake):
         if self.observers:
             now = self.clock.now()
             self.tell(Done(now, action, args, results, now - began, before, after, tuple(surprises)))
+        if surprises and self._policy.on_surprise is OnSurprise.STOP:
+            raise surprising(label, surprises[0])
         if self._invariants is not None:
             self._invariants.check(after, str(label), label.span)
 
@@ -327,5 +328,5 @@ class Executive(Intake):
             if own > branch.actions:
                 break
             if not isinstance(item, Act):
-                events.append(show_call(item.action, item.args))
+                events.append(self.dynamics.call(item.action, item.args))
         return f"exogenous actions since the plan was made: {', '.join(reversed(events))}" if events else None

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from itertools import accumulate, pairwise, permutations
+from fractions import Fraction
+from itertools import pairwise, permutations
 from pathlib import Path
 
 from hypothesis import assume, given
@@ -10,12 +11,14 @@ from hypothesis import strategies as st
 
 from golc.diagnostics import Findings, Source
 from golc.planning.limits import Limits
-from golc.planning.planner import Executable, Plan, Planning, executable
+from golc.planning.planner import Executable, Planning, executable
+from golc.planning.plans import Plan
 from golc.program.labels import Act
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
+from golc.theory.types import Number
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -26,7 +29,7 @@ action free:
     cost 0
 action a
 action toll:
-    cost x % 3 + 1
+    cost x % 3 + 0.5
 action inc:
     causes x := x + 1
     cost 2
@@ -58,16 +61,16 @@ def one(program: Executable, strategy: Strategy, limits: Limits) -> Plan | None:
     return next(iter(Planning(program, limits, strategy=strategy)), None)
 
 
-def cost(program: Executable, plan: tuple[Act, ...]) -> int:
+def cost(program: Executable, plan: tuple[Act, ...]) -> Number:
     """The sum of the costs, by the interpreter of terms instead of the compiled functions."""
-    dynamics = program.dynamics
-    states = accumulate(plan, lambda s, act: dynamics.progress(s, act.action, act.args), initial=dynamics.initial())
-    total = 0
-    for act, state in zip(plan, states, strict=False):
+    dynamics, state = program.dynamics, program.dynamics.initial()
+    total: Number = 0
+    for act in plan:
         term = dynamics.theory.actions[act.action].cost
-        value = 1 if term is None else dynamics.interpreter.evaluate(term, state, act.args)
-        assert isinstance(value, int)
+        value = 1 if term is None else dynamics.knowing.evaluate(term, state, act.args)
+        assert isinstance(value, int | Fraction)
         total += value
+        state = dynamics.progress(state, act.action, act.args)
     return total
 
 

@@ -1,0 +1,105 @@
+"""What can go wrong while a term is evaluated or an action is carried out; one function for each, with its place."""
+
+from __future__ import annotations
+
+from golc.diagnostics import Code, Diagnostic, ProgramError, Span, counted
+from golc.theory.fitting import describe
+from golc.theory.types import Number, Type, Value, show
+
+
+def argument_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
+    """An argument is outside its parameter's type; ``what`` names what it is an argument of."""
+    if value is None:
+        return nothing(span, f"an argument of `{what}`")
+    message = f"argument {show(value)} of `{what}` is outside {describe(type_)}"
+    return ProgramError(Diagnostic(Code.ARGUMENT_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
+
+
+def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
+    """A fluent or a static function would have a value outside its type."""
+    message = f"`{what}` would be {show(value)}, which is outside {describe(type_)}"
+    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
+
+
+def negative_cost(span: Span, call: str, value: Number) -> ProgramError:
+    """An action would cost less than nothing."""
+    message = f"the cost of `{call}` would be {show(value)}, but a cost is at least 0"
+    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
+
+
+def nothing(span: Span, where: str) -> ProgramError:
+    """``none`` where a value is needed."""
+    return ProgramError(
+        Diagnostic(
+            Code.NOTHING,
+            f"{where} is `none`, where a value is needed",
+            span,
+            marker="`none` here",
+            help="ask `… != none and …` first",
+        )
+    )
+
+
+def division_by_zero(span: Span) -> ProgramError:
+    """The right side of ``//`` or ``%`` is 0."""
+    return ProgramError(Diagnostic(Code.DIVISION_BY_ZERO, "division by zero", span, marker="the divisor is 0 here"))
+
+
+def empty_extremum(span: Span, kind: str) -> ProgramError:
+    """``min`` or ``max`` over no binding at all."""
+    message = f"`{kind}` over nothing has no value"
+    return ProgramError(Diagnostic(Code.EMPTY_EXTREMUM, message, span, marker="no binding satisfies its `where`"))
+
+
+def empty_list(span: Span, what: str) -> ProgramError:
+    """``first`` or ``rest`` of an empty list."""
+    message = f"`{what}` of an empty list has no value"
+    return ProgramError(Diagnostic(Code.NO_ELEMENT, message, span, marker="the list is empty here"))
+
+
+def index_outside(span: Span, place: int, length: int) -> ProgramError:
+    """A place that a list does not have."""
+    message = f"place {show(place)} is outside a list of {counted(length, 'element')}"
+    help_ = f"places are counted from 0 to {length - 1}" if length else None
+    return ProgramError(Diagnostic(Code.NO_ELEMENT, message, span, marker=f"{show(place)} here", help=help_))
+
+
+def conflicting_effects(span: Span, fluent: str, first: Value, second: Value) -> ProgramError:
+    """Two effects of one action give one ground fluent two values."""
+    message = f"two effects give `{fluent}` the values {show(first)} and {show(second)}"
+    return ProgramError(Diagnostic(Code.CONFLICTING_EFFECTS, message, span, marker=f"{show(second)} here"))
+
+
+def endless(span: Span, what: str) -> ProgramError:
+    """A recursion that goes deeper than anything sensible."""
+    message = f"the recursion of `{what}` does not end, or goes too deep"
+    return ProgramError(Diagnostic(Code.ENDLESS_RECURSION, message, span))
+
+
+class UndecidedError(ProgramError):
+    """The agent does not know what it needs to go on: a dead end of look-ahead."""
+
+
+def undecided(span: Span, problem: str, notes: tuple[str, ...], help: str | None) -> UndecidedError:
+    """A condition is neither known to be true nor known to be false, or a value is not known."""
+    message = f"{problem}, so that the program cannot go on"
+    return UndecidedError(Diagnostic(Code.UNDECIDED, message, span, marker="not known", notes=notes, help=help))
+
+
+def too_many_worlds(span: Span, most: int) -> ProgramError:
+    """A question would have to be asked in more cases than can be gone through."""
+    message = f"more than {most} cases of what is unknown would have to be told apart here"
+    help_ = "sense or settle some of it first, or say less in one formula"
+    return ProgramError(Diagnostic(Code.TOO_MANY_WORLDS, message, span, help=help_))
+
+
+def no_initial_world(span: Span) -> ProgramError:
+    """The constraints on the initial situation contradict the initial values or one another."""
+    message = "no initial world is possible: this contradicts the initial values, or what is said before"
+    return ProgramError(Diagnostic(Code.NO_INITIAL_WORLD, message, span, marker="true in no world that is left"))
+
+
+def nothing_possible(span: Span, what: str) -> ProgramError:
+    """``one of`` an empty collection."""
+    message = f"`{what}` would have no possible value: the collection is empty"
+    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker="empty here"))

@@ -1,0 +1,84 @@
+"""The order of values, in which a set is run through and written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeAlias, cast
+
+from golc.theory.types import (
+    Collection,
+    Enumeration,
+    InOrder,
+    Interval,
+    Optional,
+    Primitive,
+    Quoted,
+    Type,
+    Unknown,
+    Value,
+    rank,
+)
+
+Key: TypeAlias = Callable[[Any], Any]
+
+
+def sort_key(type_: Type) -> Key | None:
+    """The key by which ``sorted`` puts values of a type in their order; none where that is Python's own.
+
+    Symbols and enumerations have their declared order; numbers are compared by value, texts by their characters, false
+    comes before true and ``none`` before everything; lists, and sets in their order, by the first place that differs.
+    """
+    match type_:
+        case Enumeration(values=values):
+            return {value: place for place, value in enumerate(values)}.__getitem__
+        case Optional(base=base):
+            inner = sort_key(base) or _itself
+            return lambda value: (False,) if value is None else (True, inner(value))
+        case Collection(kind=kind, element=element):
+            return _collection_key(kind == "set", sort_key(element))
+        case Primitive() | Interval():
+            return None
+        case _:
+            return rank
+
+
+def _collection_key(is_set: bool, inner: Key | None) -> Key | None:
+    if is_set:
+        return sorted if inner is None else lambda value: sorted(map(inner, value))
+    return None if inner is None else lambda value: tuple(map(inner, value))
+
+
+def _itself(value: Value) -> Value:
+    return value
+
+
+def elements(collection: Value, type_: Type) -> Sequence[Value]:
+    """The elements of a list as they stand, or those of a set in the order of the type of its elements.
+
+    ``type_`` is that of the collection; it may have the value ``none`` as well.
+    """
+    if isinstance(collection, tuple):
+        return collection
+    base = type_.base if isinstance(type_, Optional) else type_
+    return sorted(cast(Iterable[Any], collection), key=sort_key(cast(Collection, base).element))
+
+
+def arranged(value: Value, type_: Type) -> Value:
+    """A value of a type as it is to be written: an equal one that knows the order of sets, and what are strings.
+
+    What is not known has its possible values in order.
+    """
+    if value is None or isinstance(value, int | str):
+        return value
+    whole = type_.base if isinstance(type_, Optional) else type_
+    if isinstance(value, Unknown):
+        values = sorted(cast(Iterable[Any], value.values), key=sort_key(type_))
+        return Unknown(tuple([arranged(each, type_) for each in values]))
+    if not isinstance(whole, Collection) or value not in whole:
+        return value
+    parts = [_beside(part, whole.element) for part in elements(value, whole)]
+    return InOrder.of(parts) if isinstance(value, frozenset) else tuple(parts)
+
+
+def _beside(value: Value, type_: Type) -> Value:
+    return Quoted(value) if isinstance(value, str) and "string" in type_.kinds else arranged(value, type_)
