@@ -112,6 +112,12 @@ def _outages(
     metavar="SECONDS",
     help="Byte code: let so many simulated seconds pass at once, without a port, and show how the brick stands.",
 )
+@click.option(
+    "--steps",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Byte code: the same until the program has ended; after N op codes it is an error that it has not.",
+)
 @click.option("--listing", is_flag=True, help="Byte code: print the op codes as `nqc -L` does, and end.")
 @click.option("--until-stdin-closes", is_flag=True, hidden=True)
 @constants_option
@@ -136,6 +142,7 @@ def command(
     option: str | None,
     settings: Mapping[str, Any],
     seconds: float | None,
+    steps: int | None,
     listing: bool,
     until_stdin_closes: bool,
     constants: Mapping[str, str],
@@ -159,10 +166,11 @@ def command(
     byte_code = sim_machine.is_byte_code(file)
     if byte_code:
         _refuse("a domain", {"--events": events is not None, "-D": bool(constants)})
-        program = {"--for": seconds is not None, "--listing": listing}
+        program: dict[str, object] = {"--for": seconds is not None, "--steps": steps, "--listing": listing}
         _refuse("a program: give a FILE", program if file is None else {})
     else:
-        given = {"--target": option, "--brick": settings, "--for": seconds is not None, "--listing": listing}
+        given: dict[str, object] = {"--target": option, "--brick": settings, "--for": seconds is not None}
+        given |= {"--steps": steps, "--listing": listing}
         _refuse("byte code, a FILE.nqc or FILE.rcx", given)
     from golc.runtime.rcxsim.line import TOWER_SLEEPS_AFTER, LineOptions
     from golc.runtime.rcxsim.serve import serve, stopped_by_signals
@@ -177,8 +185,8 @@ def command(
         told = Trace(*readers)
         if file is None or byte_code:
             machine = sim_machine.Simulation(file, option, {"seed": seed, **settings}, told)
-            if listing or seconds is not None:
-                console.out("\n".join(machine.listing() if seconds is None else machine.run(seconds, options)))
+            if shown := machine.shown(listing, seconds, steps, options):
+                console.out("\n".join(shown))
                 return
             line, rest = machine.line(options), sim_machine.REST
         else:
