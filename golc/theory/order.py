@@ -52,15 +52,16 @@ def _itself(value: Value) -> Value:
     return value
 
 
-def elements(collection: Value, type_: Type) -> Sequence[Value]:
+def elements(collection: Value, type_: Type | None) -> Sequence[Value]:
     """The elements of a list as they stand, or those of a set in the order of the type of its elements.
 
-    ``type_`` is that of the collection; it may have the value ``none`` as well.
+    ``type_`` is that of the collection; it may have the value ``none`` as well. Without one the order is any.
     """
     if isinstance(collection, tuple):
         return collection
     base = type_.base if isinstance(type_, Optional) else type_
-    return sorted(cast(Iterable[Any], collection), key=sort_key(cast(Collection, base).element))
+    key = rank if base is None else sort_key(cast(Collection, base).element)
+    return sorted(cast(Iterable[Any], collection), key=key)
 
 
 def arranged(value: Value, type_: Type) -> Value:
@@ -76,9 +77,10 @@ def arranged(value: Value, type_: Type) -> Value:
         return Unknown(tuple([arranged(each, type_) for each in values]))
     if not isinstance(whole, Collection) or value not in whole:
         return value
-    parts = [_beside(part, whole.element) for part in elements(value, whole)]
+    parts = [spelt(part, whole.element) for part in elements(value, whole)]
     return InOrder.of(parts) if isinstance(value, frozenset) else tuple(parts)
 
 
-def _beside(value: Value, type_: Type) -> Value:
+def spelt(value: Value, type_: Type) -> Value:
+    """A value of a type as it is to be written where it stands beside a name or other values: a string in quotes."""
     return Quoted(value) if isinstance(value, str) and "string" in type_.kinds else arranged(value, type_)
