@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN = $(VENV)/bin
 
-.PHONY: demo test thorough bench nqc clean
+.PHONY: demo test thorough bench docs nqc clean
 
 demo: $(VENV)/ready nqc
 	$(BIN)/golc check examples/delivery/delivery.gl
@@ -17,11 +17,16 @@ test: $(VENV)/ready nqc
 	$(BIN)/mypy golc tests
 	rm -rf build && $(BIN)/pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir build/wheel .
 	tests/packaging/try-wheel $(PYTHON) build/wheel/*.whl
+	$(MAKE) --no-print-directory docs
 	$(BIN)/pytest --cov --cov-report=term:skip-covered -q
 
 # Property tests on 5,000 new examples each.
 thorough: $(VENV)/ready nqc
 	GOLC_EXAMPLES=5000 $(BIN)/pytest -q --timeout=3600 tests/syntax/test_round_trip.py tests/situation tests/program/test_definitions.py
+
+# The manual as a site: build/docs/index.html
+docs: $(VENV)/ready
+	$(BIN)/sphinx-build -W --keep-going -q -b html docs build/docs
 
 bench: $(VENV)/ready
 	$(BIN)/python tests/bench

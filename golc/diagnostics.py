@@ -121,6 +121,9 @@ class Code(Enum):
     INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
     INVARIANT_AT_FIRST = ("GL052", "an invariant is false in the initial state")
 
+    # 060..069: knowledge
+    NO_CHOICE = ("GL060", "a fluent is one of no values")
+
     # 070..079: programs
     UNREACHABLE = ("GL070", "an interrupt is not reached")
 

@@ -71,10 +71,17 @@ class _Walk:
                 self.push(
                     [part for part in children(node) if not isinstance(part, (tree.Ident, tree.Parameter))], inner
                 )
-            case tree.Invariant(condition=condition) | tree.Goal(condition=condition):
+            case (
+                tree.Invariant(condition=condition)
+                | tree.Goal(condition=condition)
+                | tree.Initially(condition=condition)
+                | tree.Prune(condition=condition)
+            ):
                 self.push([condition], {})
             case tree.Axiom():
                 self.axiom(node)
+            case tree.PruneAfter(pattern=pattern, condition=condition):
+                self.push([condition], self.pattern(pattern, node, {}))
             case tree.Scenario(items=items):
                 for item in items:
                     self.scenario_item(item)
@@ -86,23 +93,23 @@ class _Walk:
                 self.push([piece for piece in pieces if not isinstance(piece, tree.EnumType)], {})
             case tree.Device(items=items):
                 self.push(items, {})
-            case _:
-                pass  # what else there is, elaboration refuses
         while self.stack:
             self.visit(*self.stack.pop())
 
     def axiom(self, node: tree.Axiom) -> None:
-        """What stands in a pattern may be a constant as well as a name that is bound there; it counts as both."""
         self.usage.values.add(node.fluent.text)
         heads = self.bind({}, node.parameters, node)
         for case in node.cases:
-            names = [arg for arg in case.pattern.args if isinstance(arg, tree.Ident)]
-            for name in names:
-                self.mention(name.text, heads)
-            for bound in self.parameters.get(case.pattern.action.text, {}).values():
-                bound.used = True
-            scope = {name.text: Bound(name, "variable", case) for name in names} | dict(heads)
-            self.push([case.value, case.condition], scope)
+            self.push([case.value, case.condition], self.pattern(case.pattern, case, heads))
+
+    def pattern(self, node: tree.Pattern, owner: tree.Node, scope: Locals) -> Locals:
+        """What stands in a pattern may be a constant as well as a name that is bound there; it counts as both."""
+        names = [arg for arg in node.args if isinstance(arg, tree.Ident)]
+        for name in names:
+            self.mention(name.text, scope)
+        for bound in self.parameters.get(node.action.text, {}).values():
+            bound.used = True
+        return {name.text: Bound(name, "variable", owner) for name in names} | dict(scope)
 
     def scenario_item(self, item: tree.ScenarioItem) -> None:
         """Names of actions are no values; what a scenario expects to be done is not thereby used."""

@@ -23,6 +23,8 @@ from golc.theory.context import Context, Resolver, Signature
 from golc.theory.declare import declare
 from golc.theory.elaborate_axioms import with_axioms
 from golc.theory.elaborate_devices import device_name, devices
+from golc.theory.elaborate_knowledge import check_initially, initially
+from golc.theory.elaborate_prunes import prunes
 from golc.theory.elaborate_scenarios import scenarios
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
@@ -119,8 +121,11 @@ def _elaborate(
         tuple(built.named[Kind.GOAL]),
         tuple(built.named[Kind.INVARIANT]),
         scenarios(context, [node for node in file.declarations if isinstance(node, tree.Scenario)]),
+        initially(context, [node for node in file.declarations if isinstance(node, tree.Initially)]),
+        prunes(context, [node for node in file.declarations if isinstance(node, tree.Prune | tree.PruneAfter)]),
     )
     _check_circles(context, theory)
+    check_initially(context, theory)
     context.finish()
     return theory
 
@@ -144,9 +149,7 @@ class _Builder:
         context = self.context
         entry = context.declared.entries.get(id(node))
         if entry is None:
-            if not isinstance(node, (tree.Device, tree.Scenario, tree.Axiom, tree.Import)):
-                actions.unsupported_declaration(context, node)
-            return
+            return  # what has no name that other declarations use comes later
         match entry.kind:
             case Kind.CONSTANT:
                 _keep(self.constants, entry, context.constant(entry))

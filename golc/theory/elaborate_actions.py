@@ -5,6 +5,7 @@ from __future__ import annotations
 from golc.diagnostics import Code, Label, Span
 from golc.syntax import tree
 from golc.theory.context import Context, Signature
+from golc.theory.elaborate_knowledge import new_value
 from golc.theory.elaborate_names import unknown_fluent
 from golc.theory.elaborate_terms import arguments, bind, fitting, formula, term
 from golc.theory.elaborate_types import LARGEST, elaborate_type, parameters
@@ -13,7 +14,7 @@ from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN, size
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.suggest import did_you_mean
-from golc.theory.terms import Literal, Term
+from golc.theory.terms import Choice, Literal, Term
 from golc.theory.theory import Action, Definition, Effect, Fluent
 from golc.theory.types import BOOL, INT
 
@@ -43,26 +44,31 @@ def fluent(context: Context, entry: Entry) -> Fluent | None:
     if signature is None:
         return None
     scope = parameter_scope(context, signature.parameters, node.parameters)
-    match node.initial:
-        case None:
-            _no_initial(context, node, signature)
-            return None
-        case tree.Unknown():
-            context.unsupported("`unknown` as a value is", node.initial.span)
-            return None
-        case tree.OneOf():
-            context.unsupported("`one of` as a value is", node.initial.span)
-            return None
-    what = f"fluent `{entry.name}`"
-    initial = term(context, scope, node.initial, signature.type)
+    if node.initial is None:
+        _no_initial(context, node, signature)
+        return None
+    initial = _initial_value(context, scope, node, node.initial, signature)
+    if initial is None:
+        return None
+    return Fluent(entry.name, signature.parameters, signature.type, initial, span=entry.span)
+
+
+def _initial_value(
+    context: Context, scope: Scope, node: tree.Fluent, written: tree.ValueExpr, signature: Signature
+) -> Term | Choice | None:
+    what = f"fluent `{node.name.text}`"
+    if isinstance(written, tree.Unknown | tree.OneOf):
+        choice = new_value(context, scope, written, signature.type, what)
+        closed = isinstance(choice, Choice) and closed_term(context, choice.among, "an initial value")
+        return choice if closed else None
+    initial = term(context, scope, written, signature.type)
     if node.type is None and initial.type is not BROKEN and initial.type.kinds.isdisjoint(BOOL.kinds):
         message = f"{what} has no type, which makes it relational (`bool`), but its initial value is not a formula"
         help_ = f"write its type: `fluent {node.name.text}: {initial.type} = {initial.span.text}`"
         context.error(Code.TYPE_MISMATCH, message, initial.span, f"this is of type `{initial.type}`", help_)
         return None
-    if not fits(context, initial, signature.type, what) or not closed_term(context, initial, "an initial value"):
-        return None
-    return Fluent(entry.name, signature.parameters, signature.type, initial, span=entry.span)
+    good = fits(context, initial, signature.type, what) and closed_term(context, initial, "an initial value")
+    return initial if good else None
 
 
 def _no_initial(context: Context, node: tree.Fluent, signature: Signature) -> None:
@@ -132,6 +138,9 @@ def action(context: Context, entry: Entry) -> Action | None:
                 _only_primitive(context, exogenous, "costs", clause.span, entry)
                 costs.append((clause.span, _cost(context, scope, value)))
     _one_cost(context, entry, [span for span, _ in costs])
+    expected = isinstance(node, tree.Exog) and node.expected
+    if expected:
+        _enumerable(context, signature)
     return Action(
         entry.name,
         signature.parameters,
@@ -141,6 +150,7 @@ def action(context: Context, entry: Entry) -> Action | None:
         tuple(senses),
         costs[0][1] if costs else None,
         _sources(context, node) if isinstance(node, tree.Exog) else (),
+        expected,
         span=entry.span,
     )
 
@@ -164,12 +174,17 @@ def _cost(context: Context, scope: Scope, node: tree.Expr) -> Term:
     return cost
 
 
+def _enumerable(context: Context, signature: Signature) -> None:
+    """Look-ahead tries an expected action with all its arguments."""
+    for parameter in signature.parameters:
+        if parameter.type is not BROKEN and not parameter.type.finite:
+            what = f"parameter `{parameter.name}` of expected exogenous action `{signature.entry.name}`"
+            message = f"{what} has to be of a type that can be enumerated, and `{parameter.type}` cannot"
+            help_ = "give a range, for example `1..10`, or a declared type"
+            context.error(Code.BAD_TYPE, message, parameter.span, "look-ahead tries every value", help_)
+
+
 def _sources(context: Context, node: tree.Exog) -> tuple[str, ...]:
-    if node.expected:
-        offset = node.span.text.find("expected", node.name.span.end - node.span.start)
-        start = node.span.start + offset
-        span = Span(node.span.source, start, start + len("expected")) if offset >= 0 else node.name.span
-        context.unsupported("`expected` exogenous actions are", span)
     known = [*dict.fromkeys((*SOURCES, *context.device_names))]
     for source in node.sources:
         if source.text not in known:
@@ -188,7 +203,8 @@ def _effect(context: Context, scope: Scope, node: tree.Effect) -> tuple[Effect, 
     if signature is None:
         for arg in node.target.args:
             term(context, inner, arg)
-    value = _new_value(context, inner, node, signature)
+    type_ = BROKEN if signature is None else signature.type
+    value = new_value(context, inner, node.value, type_, f"fluent `{node.target.name.text}`")
     condition = None if node.condition is None else formula(context, inner, node.condition, "`when`")
     if signature is None or args is None or value is None:
         return ()
@@ -206,27 +222,3 @@ def _target(context: Context, node: tree.Apply) -> Signature | None:
         context.error(Code.MISUSED_NAME, message, node.name.span, "a fluent is needed here", labels=labels)
         return None
     return context.signature(entry)
-
-
-def _new_value(context: Context, scope: Scope, node: tree.Effect, signature: Signature | None) -> Term | None:
-    match node.value:
-        case tree.Unknown():
-            context.unsupported("`unknown` as a value is", node.value.span)
-            return None
-        case tree.OneOf():
-            context.unsupported("`one of` as a value is", node.value.span)
-            return None
-        case value if signature is None:
-            term(context, scope, value)
-            return None
-        case value:
-            return fitting(context, scope, value, signature.type, f"fluent `{signature.entry.name}`")
-
-
-def unsupported_declaration(context: Context, node: tree.Declaration) -> None:
-    """Report a declaration that golc understands but cannot carry out yet."""
-    match node:
-        case tree.Initially():
-            context.unsupported("`initially` is", node.span)
-        case tree.Prune(name=name) | tree.PruneAfter(name=name):
-            context.unsupported("`prune` is", name.span)

@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 from golc.diagnostics import Code, Findings, Label
 from golc.syntax import tree
 from golc.theory.context import Context, Signature
-from golc.theory.elaborate_names import arity_fits, doing, unknown_fluent
-from golc.theory.elaborate_terms import fitting, formula
-from golc.theory.expectations import broken
-from golc.theory.fitting import BROKEN, describe, includes, overlap
-from golc.theory.relations import equality
+from golc.theory.elaborate_knowledge import new_value
+from golc.theory.elaborate_names import arity_fits, unknown_fluent
+from golc.theory.elaborate_patterns import acting, conjunction, matching
+from golc.theory.elaborate_terms import formula
+from golc.theory.fitting import BROKEN
 from golc.theory.scope import Kind, Local, Scope
-from golc.theory.terms import Binder, Literal, Membership, Operation, Operator, Term, Variable
-from golc.theory.theory import Action, Effect, Parameter
+from golc.theory.terms import Binder, Literal, Operation, Operator, Term, Variable
+from golc.theory.theory import Action, Effect
 from golc.theory.types import BOOL, Type
 
 
@@ -89,8 +89,11 @@ class _Line:
     """An ``after`` line whose action is known."""
 
     node: tree.After
-    action: str
-    parameters: tuple[Parameter, ...]
+    action: Signature
+
+    @property
+    def name(self) -> str:
+        return self.action.entry.name
 
 
 @dataclass(frozen=True)
@@ -122,33 +125,24 @@ class _Axiom:
             line = self.line(case)
             if line is None:
                 continue
-            effect = self.effect(line, earlier.get(line.action, ()))
+            effect = self.effect(line, earlier.get(line.name, ()))
             if effect is not None:
-                earlier.setdefault(line.action, []).append(line)
-                found.append((line.action, effect))
+                earlier.setdefault(line.name, []).append(line)
+                found.append((line.name, effect))
         return found
 
     def line(self, node: tree.After) -> _Line | None:
-        context, pattern = self.context, node.pattern
-        entry = doing(context, pattern.action, len(pattern.args), (Kind.ACTION, Kind.EXOGENOUS))
-        if entry is not None and entry.kind is Kind.PROCEDURE:
-            labels = (Label(entry.span, "declared here"),)
-            message = f"`{entry.name}` is a procedure, and an axiom speaks of actions"
-            context.error(Code.MISUSED_NAME, message, pattern.action.span, "not an action", labels=labels)
+        action = acting(self.context, node.pattern, "an axiom")
+        if action is None or BROKEN in [parameter.type for parameter in self.signature.parameters]:
             return None
-        signature = None if entry is None else context.signature(entry)
-        if entry is None or signature is None or not arity_fits(context, pattern, entry, len(pattern.args)):
-            return None
-        if BROKEN in [parameter.type for parameter in (*signature.parameters, *self.signature.parameters)]:
-            return None
-        return _Line(node, entry.name, signature.parameters)
+        return _Line(node, action)
 
     def effect(self, line: _Line, earlier: Sequence[_Line]) -> Effect | None:
         """The effect of a line, below the earlier ones for the same action."""
-        node = line.node
+        node, fluent = line.node, self.signature.entry.name
         heads, binders = self.head_variables(line)
         case = self.case(line, line, heads)
-        value = self.value(case.scope, node)
+        value = new_value(self.context, case.scope, node.value, self.signature.type, f"fluent `{fluent}`")
         if value is None or any(term.type is BROKEN for term in (*case.conditions(), value)):
             return None
         conditions = [*case.demands]
@@ -159,9 +153,8 @@ class _Axiom:
             fits = before.conditions()
             if not fits:
                 return None  # the earlier line decides in every case
-            conditions.append(Operation(Operator.NOT, (_all(fits),), type=BOOL, span=other.node.span))
-        where = _all(tuple(conditions)) if conditions else None
-        fluent = self.signature.entry.name
+            conditions.append(Operation(Operator.NOT, (conjunction(fits),), type=BOOL, span=other.node.span))
+        where = conjunction(conditions) if conditions else None
         return Effect(binders, where, fluent, heads, value, case.condition, span=node.span)
 
     def head_variables(self, line: _Line) -> tuple[tuple[Variable, ...], tuple[Binder, ...]]:
@@ -173,7 +166,7 @@ class _Axiom:
         for place, arg in enumerate(line.node.pattern.args):
             if isinstance(arg, tree.Ident) and arg.text in self.heads:
                 places.setdefault(arg.text, place)
-        level = len(line.parameters)
+        level = len(line.action.parameters)
         heads: list[Variable] = []
         binders: list[Binder] = []
         for name, parameter in zip(self.node.parameters, self.signature.parameters, strict=True):
@@ -198,57 +191,14 @@ class _Axiom:
 
     def case(self, line: _Line, within: _Line, heads: tuple[Variable, ...]) -> _Case:
         """What ``line`` demands where the head's parameters are ``heads``, which the effect of ``within`` has made."""
-        level = max([len(within.parameters), *(head.level + 1 for head in heads)])
+        level = max([len(within.action.parameters), *(head.level + 1 for head in heads)])
         names = zip(self.node.parameters, heads, strict=True)
-        bound = {name.text: Local(head, name.span) for name, head in names}
-        demands: list[Term] = []
-        for place, (arg, parameter) in enumerate(zip(line.node.pattern.args, line.parameters, strict=True)):
-            given = Variable(place, parameter.name, type=parameter.type, span=arg.span)
-            if isinstance(arg, tree.Ident) and self.is_new(arg.text, bound):
-                bound[arg.text] = Local(given, arg.span)
-            elif isinstance(arg, tree.Ident) and arg.text in bound:
-                demands += self.same(given, bound[arg.text].variable, arg)
-            else:
-                demands.append(self.constant(given, arg, f"parameter `{parameter.name}` of `{line.action}`"))
-        scope = Scope(bound, level)
+        known = {name.text: Local(head, name.span) for name, head in names}
+        found = matching(self.context, line.node.pattern, line.action, known)
+        scope = Scope(found.bound, level)
         node = line.node.condition
         condition = None if node is None else formula(self.context, scope, node, "`when`")
-        return _Case(scope, tuple(demands), condition)
-
-    def is_new(self, name: str, bound: Mapping[str, Local]) -> bool:
-        """Whether a name in a pattern is bound there: it is neither bound already nor a constant."""
-        entry = self.context.names.values.get(name)
-        return name not in bound and (entry is None or entry.kind not in (Kind.SYMBOL, Kind.CONSTANT))
-
-    def same(self, given: Variable, other: Variable, arg: tree.Ident) -> list[Term]:
-        """The demand that an argument is what its name stands for already; of an argument that is the parameter of the
-        head itself, that it is of the parameter's type."""
-        if not overlap(given.type, other.type):
-            message = f"`{arg.text}` is of type {describe(other.type)}, and here of type {describe(given.type)}"
-            self.context.error(Code.TYPE_MISMATCH, message, arg.span, "their types have nothing in common")
-            return [broken(arg.span)]
-        if given.level != other.level:
-            return [Operation(Operator.EQUAL, (given, other), type=BOOL, span=arg.span)]
-        if given.type.finite and includes(other.type, given.type):
-            return []
-        return [Membership(given, other.type, type=BOOL, span=arg.span)]
-
-    def constant(self, given: Variable, arg: tree.Ident | tree.Number | tree.Truth | tree.Nothing, what: str) -> Term:
-        node: tree.Expr = tree.Apply(arg, (), span=arg.span) if isinstance(arg, tree.Ident) else arg
-        value = fitting(self.context, Scope(), node, given.type, what)
-        return equality(self.context, Operator.EQUAL, given, value, arg.span)
-
-    def value(self, scope: Scope, node: tree.After) -> Term | None:
-        match node.value:
-            case tree.Unknown():
-                self.context.unsupported("`unknown` as a value is", node.value.span)
-                return None
-            case tree.OneOf():
-                self.context.unsupported("`one of` as a value is", node.value.span)
-                return None
-            case value:
-                fluent = self.signature.entry.name
-                return fitting(self.context, scope, value, self.signature.type, f"fluent `{fluent}`")
+        return _Case(scope, found.demands, condition)
 
 
 def _exclude(one: Sequence[Term], other: Sequence[Term]) -> bool:
@@ -265,7 +215,3 @@ def _constants(demands: Sequence[Term]) -> list[tuple[int, tuple[Type, object]]]
         for place, value in [demand.args]
         if isinstance(place, Variable) and isinstance(value, Literal)
     ]
-
-
-def _all(terms: tuple[Term, ...]) -> Term:
-    return terms[0] if len(terms) == 1 else Operation(Operator.AND, terms, type=BOOL, span=terms[0].span)

@@ -123,6 +123,10 @@ def _no_arguments(context: Context, node: tree.Apply, what: str, entry: Entry | 
 
 def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> None:
     name, given = node.name, len(node.args)
+    if name.text == "unknown":
+        message, ask = "`unknown` is no value to compare with", "`known(f)` asks whether the value of f is known"
+        context.error(Code.MISUSED_NAME, message, name.span, "not a value", f"write `not known(…)`: {ask}")
+        return
     if context.names.assumes(name.text):
         return
     action = context.names.doings.get(name.text)

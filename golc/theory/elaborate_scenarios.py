@@ -26,8 +26,8 @@ from golc.theory.scenarios import (
     Scenario,
 )
 from golc.theory.scope import Entry, Kind, Scope
-from golc.theory.terms import DefinedTerm, FluentTerm, Operation, Operator, PossTerm, Term, subterms
-from golc.theory.types import INT, show_call
+from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, Operation, Operator, PossTerm, Term, subterms
+from golc.theory.types import INT, Value, show_call
 
 
 def scenarios(context: Context, nodes: Sequence[tree.Scenario]) -> dict[str, Scenario]:
@@ -55,6 +55,7 @@ class _Scenario:
     node: tree.Scenario
     good: bool = True
     givens: list[Given] = field(default_factory=list)
+    given_values: dict[tuple[str, tuple[Value, ...]], Span] = field(default_factory=dict)
     runs: list[tuple[Span, GroundCall]] = field(default_factory=list)
     events: list[Events] = field(default_factory=list)
     until: list[tuple[Span, Term]] = field(default_factory=list)
@@ -122,25 +123,26 @@ class _Scenario:
         return found
 
     def given(self, condition: Term) -> None:
-        """Conjuncts of the form ``f(args) = e``, with values that are known now, replace initial values."""
+        """Conjuncts of the form ``f(args) = e``, with values that are known now, replace initial values; where several
+        initial values are possible they say, as all others do, which of the possible worlds is the real one."""
         for part in _conjuncts(condition):
             match part:
                 case Operation(op=Operator.EQUAL, args=(FluentTerm() as target, value)) if not any(
                     self.situational(term) for term in (*target.args, value)
                 ):
-                    self.assignment(target, value, part.span)
+                    self.value(part, target, value)
                 case _:
                     self.givens.append(Assumption(part, span=part.span))
 
     def situational(self, term: Term) -> bool:
         return any(
-            isinstance(part, (FluentTerm, PossTerm))
+            isinstance(part, FluentTerm | PossTerm | Epistemic)
             or (isinstance(part, DefinedTerm) and situational(self.context, part.definition))
             for part in subterms(term)
         )
 
-    def assignment(self, target: FluentTerm, value: Term, span: Span) -> None:
-        context = self.context
+    def value(self, condition: Term, target: FluentTerm, value: Term) -> None:
+        context, span = self.context, condition.span
         signature = context.signature(context.names.values.entries[target.fluent])
         types = [] if signature is None else [*(p.type for p in signature.parameters), signature.type]
         whats = [f"an argument of `{target.fluent}`"] * len(target.args) + [f"fluent `{target.fluent}`"]
@@ -151,14 +153,22 @@ class _Scenario:
                 self.good = False
                 return
             values.append(found.value)
-        new = Assignment(target.fluent, tuple(values[:-1]), values[-1], span=span)
-        for other in self.givens:
-            if isinstance(other, Assignment) and (other.fluent, other.args) == (new.fluent, new.args):
-                message = f"`{show_call(new.fluent, new.args)}` is given two values"
-                labels = (Label(other.span, "the first one"),)
-                context.error(Code.DUPLICATE, message, span, "given again", labels=labels)
-                self.good = False
-        self.givens.append(new)
+        key = (target.fluent, tuple(values[:-1]))
+        if key in self.given_values:
+            message = f"`{show_call(*key)}` is given two values"
+            labels = (Label(self.given_values[key], "the first one"),)
+            context.error(Code.DUPLICATE, message, span, "given again", labels=labels)
+            self.good = False
+        self.given_values.setdefault(key, span)
+        if self.chosen(target.fluent):
+            self.givens.append(Assumption(condition, span=span))
+        else:
+            self.givens.append(Assignment(*key, values[-1], span=span))
+
+    def chosen(self, fluent: str) -> bool:
+        """Whether the declaration of a fluent says that several initial values are possible."""
+        node = self.context.names.values.entries[fluent].node
+        return isinstance(node, tree.Fluent) and isinstance(node.initial, tree.Unknown | tree.OneOf)
 
     def on(self, item: tree.OnEvents) -> None:
         calls = [self.call(event, (Kind.EXOGENOUS,), "an exogenous action") for event in item.events]

@@ -7,6 +7,7 @@ one finding. The elaborator calls itself from Python code alone, never through a
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 from typing import cast
 
 from golc.diagnostics import Code, Span
@@ -19,8 +20,10 @@ from golc.theory.fitting import BROKEN
 from golc.theory.relations import conditional, equality, numeric, one_of, ordering, within_type
 from golc.theory.scope import Kind, Scope
 from golc.theory.terms import (
+    Before,
     Binder,
     DefinedTerm,
+    Epistemic,
     FluentTerm,
     Literal,
     Operation,
@@ -78,6 +81,8 @@ def term(context: Context, scope: Scope, node: tree.Expr, hint: Type | None = No
         case tree.Extremum(kind=kind, args=args):
             op = Operator.MINIMUM if kind == "min" else Operator.MAXIMUM
             return numeric(context, op, [_integer(context, scope, arg, f"`{kind}`") for arg in args], node.span)
+        case tree.Epistemic():
+            return _epistemic(context, scope, node)
         case _:
             if hint is not BROKEN:  # otherwise it is of a type that is not supported, which has been said
                 context.unsupported(_unsupported(node), node.span)
@@ -92,8 +97,6 @@ def _unsupported(node: tree.Expr) -> str:
             return "strings outside of messages are"
         case tree.Index():
             return "indexing is"
-        case tree.Epistemic(kind=kind):
-            return f"`{kind}(…)` is"
         case tree.Comprehension(kind=kind):
             return f"{kind} comprehensions are"
         case _:
@@ -149,7 +152,7 @@ def arguments(context: Context, scope: Scope, node: tree.Apply, signature: Signa
 
 def _function(context: Context, scope: Scope, node: tree.Apply) -> Term:
     name, given = node.name.text, len(node.args)
-    if name in ("abs", "poss") and given != 1:
+    if name in ("abs", "poss", "before") and given != 1:
         message = f"`{name}` takes 1 argument, not {given}"
         context.error(Code.ARITY, message, node.name.span, f"{given} arguments here")
         return broken(node.span)
@@ -158,6 +161,8 @@ def _function(context: Context, scope: Scope, node: tree.Apply) -> Term:
         return numeric(context, Operator.ABSOLUTE, [operand], node.span)
     if name == "poss":
         return _poss(context, scope, node.args[0], node.span)
+    if name == "before":
+        return _before(context, scope, node.args[0], node.span)
     context.unsupported(f"`{name}(…)` is", node.span)
     return broken(node.span)
 
@@ -176,6 +181,27 @@ def _poss(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term:
         return broken(span)
     args = None if signature is None else arguments(context, scope, node, signature)
     return broken(span) if args is None else PossTerm(entry.name, args, type=BOOL, span=span)
+
+
+# ---- knowledge and the past
+
+
+def _epistemic(context: Context, scope: Scope, node: tree.Epistemic) -> Term:
+    inner = replace(scope, before=False)
+    if node.kind == "known":
+        body = term(context, inner, node.body)
+    else:
+        body = formula(context, inner, node.body, f"`{node.kind}`")
+    return broken(node.span) if body.type is BROKEN else Epistemic(node.kind, body, type=BOOL, span=node.span)
+
+
+def _before(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term:
+    body = term(context, replace(scope, before=False), node)
+    if not scope.before:
+        help_ = "it stands in `prune … after … when`, but not inside another one or inside `knows` and the like"
+        context.error(Code.MISPLACED_CLAUSE, "`before(…)` has no meaning here", span, "before what?", help_)
+        return broken(span)
+    return body if body.type is BROKEN else Before(body, type=body.type, span=span)
 
 
 # ---- operators

@@ -14,7 +14,7 @@ from golc.theory.elaborate_types import elaborate_type, parameters
 from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN, describe, size
 from golc.theory.scope import Entry, Kind, Scope
-from golc.theory.terms import DefinedTerm, FluentTerm, Literal, PossTerm, Term, subterms
+from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, Literal, PossTerm, Term, subterms
 from golc.theory.theory import Constant, Parameter, Static
 from golc.theory.types import BOOL, Type, Value, show, show_call
 
@@ -31,6 +31,8 @@ def closed_term(context: Context, found: Term, what: str) -> bool:
                 reason = f"whether `{name}` is possible"
             case DefinedTerm(definition=name) if situational(context, name):
                 reason = f"`{name}`, which reads fluents"
+            case Epistemic():
+                reason = "what the agent knows"
             case _:
                 continue
         context.error(Code.NOT_CONSTANT, f"{what} cannot depend on {reason}", part.span, "depends on the situation")
@@ -46,7 +48,7 @@ def situational(context: Context, definition: str) -> bool:
         known[definition] = False
         for part in subterms(found.body) if found else ():
             match part:
-                case FluentTerm() | PossTerm():
+                case FluentTerm() | PossTerm() | Epistemic():
                     known[definition] = True
                 case DefinedTerm(definition=name) if situational(context, name):
                     known[definition] = True

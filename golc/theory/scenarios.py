@@ -30,7 +30,7 @@ class GroundCall(Base):
 
 @dataclass(frozen=True)
 class Assignment(Base):
-    """``given f(args) = value``: the ground fluent has this initial value, whatever its declaration says."""
+    """``given f(args) = value`` of a fluent with one initial value: it has this one, whatever its declaration says."""
 
     fluent: str
     args: tuple[Value, ...]
@@ -39,7 +39,8 @@ class Assignment(Base):
 
 @dataclass(frozen=True)
 class Assumption(Base):
-    """``given φ``: the initial state satisfies φ, or the scenario fails."""
+    """Any other ``given φ``: the real world is one of the possible ones in which φ holds; without any the scenario
+    fails."""
 
     condition: Term
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 from golc.diagnostics import Label, Span
@@ -145,10 +145,11 @@ class Local:
 
 @dataclass(frozen=True)
 class Scope:
-    """The variables around a term, innermost last."""
+    """The variables around a term, innermost last; ``before``: whether ``before(e)`` may stand in it."""
 
     locals: Mapping[str, Local] = field(default_factory=dict)
     level: int = 0
+    before: bool = False
 
     def get(self, name: str) -> Variable | None:
         local = self.locals.get(name)
@@ -157,4 +158,5 @@ class Scope:
     def bind(self, name: tree.Ident, type_: Type) -> tuple[Scope, Variable]:
         """One variable more, on the next level."""
         variable = Variable(self.level, name.text, type=type_, span=name.span)
-        return Scope({**self.locals, name.text: Local(variable, name.span)}, self.level + 1), variable
+        locals_ = {**self.locals, name.text: Local(variable, name.span)}
+        return replace(self, locals=locals_, level=self.level + 1), variable

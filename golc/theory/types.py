@@ -1,16 +1,18 @@
 """The types of golc's terms, and the Python values that stand for theirs.
 
-An integer is an ``int``, a symbol its name as a ``str``, a truth value a ``bool``, ``none`` is ``None``. (A ``real`` is
-a ``Fraction``, a set a ``frozenset``, a list a ``tuple``.) Types are compared by structure; names are for messages.
+An integer is an ``int``, a symbol its name as a ``str``, a truth value a ``bool``, ``none`` is ``None``. A real number
+is an ``int`` if it is whole, otherwise a ``Fraction``; a string is a ``str``, a set a ``frozenset``, a list a
+``tuple``. Types are compared by structure; names are for messages.
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from typing import Literal, TypeAlias, cast, overload
+from typing import Any, Literal, TypeAlias, cast, overload
 
 Value: TypeAlias = Hashable
 
@@ -210,12 +212,23 @@ NONE = Optional(Enumeration(()))
 """The type of ``none`` alone."""
 
 
+def number(value: Value) -> Value:
+    """A number in its only form: as an ``int`` if it is whole. Other values stay as they are."""
+    return value.numerator if isinstance(value, Fraction) and value.denominator == 1 else value
+
+
 MOST_BITS = 14_000
 """Larger integers are not shown in full: Python refuses to write more than 4,300 decimal digits."""
 
+MOST_DECIMALS = 100
+"""With more decimals than these a real number is shown as a quotient."""
+
+ESCAPED = str.maketrans({'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "{": "{{", "}": "}}"})
+"""How characters of a string are written between quotes."""
+
 
 def show(value: Value) -> str:
-    """A value as golc writes it: ``true``, ``none``, ``3``, ``stopped``."""
+    """A value as golc writes it: ``true``, ``none``, ``3``, ``0.5``, ``stopped``, ``{1, 2}``; a string as its text."""
     match value:
         case None:
             return "none"
@@ -223,23 +236,75 @@ def show(value: Value) -> str:
             return "true" if value else "false"
         case int() if value.bit_length() > MOST_BITS:
             return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
+        case Fraction():
+            return _decimal(value)
+        case frozenset():
+            return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
+        case tuple():
+            return "[" + ", ".join(map(_part, value)) + "]"
         case _:
             return str(value)
 
 
+def _decimal(value: Fraction) -> str:
+    """A real number with all its decimals; as a quotient if they do not end, or are too many."""
+    places = 1
+    while 10**places % value.denominator and places < MOST_DECIMALS:
+        places += 1
+    scaled = value * 10**places
+    if scaled.denominator > 1 or scaled.numerator.bit_length() > MOST_BITS:
+        return f"{show(value.numerator)}/{show(value.denominator)}"
+    digits = str(abs(scaled.numerator)).rjust(places + 1, "0")
+    return f"{'-' * (value < 0)}{digits[:-places]}.{digits[-places:]}"
+
+
+def _part(value: Value) -> str:
+    """A value beside others: there a string that is no single word stands in quotes."""
+    if isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value):
+        return '"' + value.translate(ESCAPED) + '"'
+    return show(value)
+
+
+def _rank(value: Value) -> tuple[int, Any]:
+    """What brings the elements of a set into an order where their type is not at hand."""
+    match value:
+        case None:
+            return 0, 0
+        case bool():
+            return 1, value
+        case int() | Fraction():
+            return 2, value
+        case frozenset():
+            return 4, sorted(map(_rank, value))
+        case tuple():
+            return 5, tuple(map(_rank, value))
+        case _:
+            return 3, value
+
+
 def writable(thing: object) -> object:
-    """A structure of values for JSON, in which integers that Python refuses to write are the texts of ``show``."""
+    """A structure of values for JSON: a set is a list, a number that would not be exact there the text of ``show``."""
     match thing:
         case Mapping():
             return {name: writable(part) for name, part in thing.items()}
         case list() | tuple():
             return [writable(part) for part in thing]
+        case frozenset():
+            return [writable(part) for part in sorted(thing, key=_rank)]
+        case Fraction():
+            return _number(show(thing))
         case int() if thing.bit_length() > MOST_BITS:
             return show(thing)
         case _:
             return thing
 
 
+def _number(text: str) -> float | str:
+    """A number with decimals for JSON, as a text if it has more of them than JSON's readers keep."""
+    is_exact = re.fullmatch(r"-?\d+\.\d+", text) and repr(float(text)) == text
+    return float(text) if is_exact else text
+
+
 def show_call(name: str, args: Sequence[Value]) -> str:
     """``a`` or ``a(1, b)``."""
-    return f"{name}({', '.join(map(show, args))})" if args else name
+    return f"{name}({', '.join(map(_part, args))})" if args else name

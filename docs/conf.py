@@ -1,0 +1,38 @@
+"""How Sphinx makes a site of the manual; `make docs` writes it to build/docs."""
+
+from __future__ import annotations
+
+import sys
+import tomllib
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from pygments.lexers.c_cpp import CLexer
+
+if TYPE_CHECKING:
+    from sphinx.application import Sphinx
+
+ROOT = Path(__file__).parents[1]
+sys.path.insert(0, str(ROOT))
+
+project = "golc"
+author = "the authors of golc"
+release = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["version"]
+extensions = ["myst_parser"]
+exclude_patterns = ["README.md"]  # index.md includes it
+myst_heading_anchors = 3  # the anchors of the pages where they are read as Markdown
+
+html_theme = "furo"
+html_title = f"golc {release}"
+html_copy_source = False
+html_show_copyright = False
+pygments_style = "friendly"
+pygments_dark_style = "github-dark"
+
+
+def setup(app: Sphinx) -> None:
+    """Teach Pygments the languages of the manual, whether or not golc is installed."""
+    from golc.highlighting import GolcLexer
+
+    app.add_lexer("golc", GolcLexer)
+    app.add_lexer("nqc", CLexer)

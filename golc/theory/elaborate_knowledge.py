@@ -1,0 +1,113 @@
+"""Incomplete knowledge: values that are unknown, and what holds in every possible initial world."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Literal as OneOf
+
+from golc.diagnostics import Code, Span
+from golc.syntax import tree
+from golc.theory.context import Context
+from golc.theory.elaborate_terms import fitting, formula, term
+from golc.theory.elaborate_types import LARGEST
+from golc.theory.expectations import broken, fits, mismatch, shown
+from golc.theory.fitting import BROKEN, describe, join, overlap, size
+from golc.theory.reading import reached
+from golc.theory.scope import Scope
+from golc.theory.terms import Choice, DefinedTerm, Display, Epistemic, Literal, PossTerm, Term, subterms
+from golc.theory.theory import BasicActionTheory
+from golc.theory.types import BOOL, Collection, Type
+
+
+def new_value(context: Context, scope: Scope, node: tree.ValueExpr, type_: Type, what: str) -> Term | Choice | None:
+    """What a fluent of a type is set to, in the beginning or by an effect; none, and a finding, if it is a choice that
+    has no meaning. ``what`` names the fluent."""
+    match node:
+        case tree.Unknown():
+            return _unknown(context, type_, node.span, what)
+        case tree.OneOf():
+            return _one_of(context, scope, node, type_, what)
+        case _:
+            return fitting(context, scope, node, type_, what)
+
+
+def _unknown(context: Context, type_: Type, span: Span, what: str) -> Choice | None:
+    if type_ is BROKEN:
+        return None
+    if not type_.finite or size(type_) > LARGEST:
+        why = f"has more than {LARGEST} values" if type_.finite else "cannot be enumerated"
+        message = f"{what} cannot be unknown: its type {describe(type_)} {why}"
+        context.error(Code.BAD_TYPE, message, span, "any of its values?", "say which are possible: `one of {…}`")
+        return None
+    among = Literal(tuple(type_.values), type=Collection("list", type_), span=span)
+    return Choice(among, type=type_, span=span)
+
+
+def _one_of(context: Context, scope: Scope, node: tree.OneOf, type_: Type, what: str) -> Choice | None:
+    among = _among(context, scope, node.choices, type_, what)
+    if among is None or type_ is BROKEN:
+        return None
+    if among in (Display((), type=among.type), Literal((), type=among.type), Literal(frozenset(), type=among.type)):
+        context.error(Code.NO_CHOICE, f"{what} is one of no values", node.span, "at least one has to be possible")
+        return None
+    return Choice(among, type=type_, span=node.span)
+
+
+def _among(context: Context, scope: Scope, node: tree.Expr, type_: Type, what: str) -> Term | None:
+    """The collection of the values that are possible, whose elements fit a type."""
+    found = _listed(context, scope, node, type_)
+    if found.type is BROKEN or type_ is BROKEN:
+        return None
+    if not isinstance(found.type, Collection):
+        message = f"`one of` chooses from a set or list, and this is of type {describe(found.type)}"
+        help_ = f"write `one of {{{node.span.text}}}`"
+        context.error(Code.TYPE_MISMATCH, message, node.span, "not a set or list", help_)
+        return None
+    if not overlap(found.type.element, type_):
+        relational = "a fluent without a type is relational, true or false" if type_ == BOOL else None
+        mismatch(context, found, describe(Collection(found.type.kind, type_)), what, relational)
+        return None
+    elements = found.elements if isinstance(found, Display) else ()
+    good = [fits(context, element, type_, what) for element in elements]
+    return None if False in good else found
+
+
+def _listed(context: Context, scope: Scope, node: tree.Expr, type_: Type) -> Term:
+    if not isinstance(node, tree.SetLiteral | tree.ListLiteral):
+        return term(context, scope, node, Collection("list", type_))
+    elements = tuple([term(context, scope, element, type_) for element in node.elements])
+    if any(element.type is BROKEN for element in elements):
+        return broken(node.span)
+    kind: OneOf["set", "list"] = "set" if isinstance(node, tree.SetLiteral) else "list"
+    return Display(elements, type=Collection(kind, _joined(elements, type_)), span=node.span)
+
+
+def _joined(elements: Sequence[Term], needed: Type) -> Type:
+    """A type that all elements of a collection have; that of the fluent where their own have nothing in common."""
+    found: Type | None = elements[0].type if elements else None
+    for element in elements[1:]:
+        found = found and join(found, element.type)
+    return found or needed
+
+
+def initially(context: Context, nodes: Iterable[tree.Initially]) -> tuple[Term, ...]:
+    """The constraints on the possible initial worlds, as far as they have a meaning."""
+    found = [formula(context, Scope(), node.condition, "`initially`") for node in nodes]
+    return tuple([condition for condition in found if condition.type is not BROKEN])
+
+
+def check_initially(context: Context, theory: BasicActionTheory) -> None:
+    """A constraint tells possible worlds apart, one by one, so it cannot ask what is known in all of them."""
+    for condition in theory.initially:
+        for part in subterms(condition):
+            if isinstance(part, Epistemic | DefinedTerm | PossTerm) and _asks_knowledge(theory, part):
+                marker = "nothing is known before the first situation"
+                message = "`initially` cannot depend on what the agent knows"
+                if not isinstance(part, Epistemic):
+                    message += f", which `{shown(part)}` asks"
+                context.error(Code.NOT_CONSTANT, message, part.span, marker)
+                break
+
+
+def _asks_knowledge(theory: BasicActionTheory, term: Term) -> bool:
+    return any(isinstance(part, Epistemic) for part in reached(theory, [term]))
