@@ -52,6 +52,9 @@ class Rectangle:
         return share_of_band(ahead, self.length / 2, radius) * share_of_band(left, self.width / 2, radius)
 
     def contains(self, x: float, y: float) -> bool:
+        reach = self.length + self.width
+        if abs(x - self.pose.x) > reach or abs(y - self.pose.y) > reach:  # as most are, at each step of a robot
+            return False
         ahead, left = self.pose.seen_from(x, y)
         return abs(ahead) <= self.length / 2 and abs(left) <= self.width / 2
 
@@ -108,12 +111,12 @@ class _Stretch:
         self.light = light
         self._half = half
         directed = [(ax, ay, bx - ax, by - ay) for ax, ay, bx, by in pieces]
-        self._pieces = [(ax, ay, dx, dy, dx * dx + dy * dy) for ax, ay, dx, dy in directed]
+        squares = [(ax, ay, dx, dy, dx * dx + dy * dy) for ax, ay, dx, dy in directed]
+        self._pieces = [piece for piece in squares if piece[4] > 0]
 
     def share(self, x: float, y: float, radius: float) -> float:
         """The share of a disc that lies on the line, as if that were straight near by."""
-        reach = self._half + radius
-        least = reach * reach
+        least = most = (self._half + radius) ** 2
         # `geometry.distance` in the place where most of the time goes: no calls, and only the last root.
         for ax, ay, dx, dy, square in self._pieces:
             px, py = x - ax, y - ay
@@ -125,7 +128,7 @@ class _Stretch:
             off = px * px + py * py
             if off < least:
                 least = off
-        return share_of_band(sqrt(least), self._half, radius)
+        return 0.0 if least == most else share_of_band(sqrt(least), self._half, radius)
 
 
 CELL = 40.0

@@ -93,7 +93,7 @@ def share_before(x: float, radius: float) -> float:
 
 
 def share_of_band(offset: float, half: float, radius: float) -> float:
-    """The share of a disc within a straight band that reaches ``half`` to either side of its middle, ``offset`` away."""
+    """The share of a disc in a straight band that reaches ``half`` to either side of its middle, ``offset`` away."""
     return share_before(half - offset, radius) - share_before(-half - offset, radius)
 
 
@@ -111,7 +111,9 @@ def share_of_disc(offset: float, large: float, radius: float) -> float:
 
 
 CURVE_STEP = 5.0
-"""At most so many mm between the points of a smooth curve."""
+"""mm between the points of a smooth curve, about."""
+MOST_STEPS = 200
+"""Points between two of the points that a smooth curve goes through."""
 
 
 def smooth(points: Sequence[Point], closed: bool) -> list[Point]:
@@ -127,7 +129,7 @@ def smooth(points: Sequence[Point], closed: bool) -> list[Point]:
         pieces = zip(around, around[1:], around[2:], around[3:], strict=False)
     curve: list[Point] = []
     for p0, p1, p2, p3 in pieces:
-        steps = max(1, round(hypot(p2[0] - p1[0], p2[1] - p1[1]) / CURVE_STEP + 0.5))
+        steps = min(MOST_STEPS, 1 + int(hypot(p2[0] - p1[0], p2[1] - p1[1]) / CURVE_STEP))
         curve.extend(_on_spline(p0, p1, p2, p3, step / steps) for step in range(steps))
     return [*curve, curve[0] if closed else points[-1]]
 
@@ -149,7 +151,7 @@ def segments(points: Iterable[Point]) -> list[Segment]:
 
 
 def along(points: Sequence[Point], way: float) -> Pose:
-    """Where one is, and whereto one looks, after having gone so far along a polyline; it goes straight on at its end."""
+    """Where one is, and whereto one looks, after having gone so far along a polyline; straight on at its end."""
     pieces = segments(points)
     for piece in pieces:
         length = hypot(piece[2] - piece[0], piece[3] - piece[1])

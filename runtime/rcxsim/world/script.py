@@ -19,12 +19,14 @@ from dataclasses import dataclass
 from math import radians
 
 from golc.diagnostics import Code, Findings, Span
+from golc.runtime.rcxsim.surroundings import Button
 from golc.runtime.rcxsim.world.people import At, Deed, Lift, Line, OnSound, OnStop, Press, PutAt, PutBack, PutDown
 from golc.runtime.rcxsim.world.robot import SECOND
 from golc.theory.suggest import did_you_mean
 
 SOUNDS = ("click", "double_beep", "down", "up", "low_beep", "fast_up")
 """The brick's own sounds by number; the names are those of NQC."""
+BRICK_BUTTONS = tuple(button.value for button in Button)
 PRESSED_FOR = 0.3
 """Seconds that a button is held where the line does not say."""
 
@@ -101,7 +103,7 @@ def _deed(text: str, where: Span, names: Names, findings: Findings) -> Deed | No
         findings.error(Code.PEOPLE, f"`{text}` is nothing that people can do here", where, help=DEEDS)
         return None
     if match["button"]:
-        known = _known(match["button"], "button", names.buttons, where, findings)
+        known = _known(match["button"], "button", [*names.buttons, *BRICK_BUTTONS], where, findings)
         return Press(match["button"], _micro(match["held"] or PRESSED_FOR)) if known else None
     if match["station"]:
         known = _known(match["station"], "station", names.stations, where, findings)

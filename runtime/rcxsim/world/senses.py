@@ -5,19 +5,16 @@ from __future__ import annotations
 import random
 from math import floor, hypot, pi
 
+from golc.runtime.rcxsim.surroundings import OPEN, ROTATION_LEVELS
 from golc.runtime.rcxsim.world.drive import STEP, Drive, Moment
 from golc.runtime.rcxsim.world.floor import Brightness
 from golc.runtime.rcxsim.world.geometry import Pose, apart
 from golc.runtime.rcxsim.world.robot import LightSensor, RotationSensor, TouchSensor
 from golc.runtime.rcxsim.world.scene import Scene
 
-OPEN = 1023
-"""The raw value of an input with nothing on it, and of a switch that is not pressed."""
 PRESSED = 50
 """The raw value of a pressed switch."""
 COUNTS_A_TURN = 16
-QUARTERS = (1023, 798, 402, 567)
-"""The raw values of a rotation sensor, one count after the other; a turn has them four times."""
 NEAR = 1.0
 """mm between bumper and wall at which the bumper is pressed."""
 NOISES = 4096
@@ -41,15 +38,15 @@ class Senses:
         """Hold a button until a time, at least."""
         self._held_until[button] = max(until, self._held_until.get(button, 0))
 
-    def raw(self, port: int, now: int) -> int:
-        """What the brick measures at an input (0 to 2) now."""
+    def raw(self, port: int, powered: bool, now: int) -> int:
+        """What the brick measures at an input (0 to 2) now; without power, light and rotation sensors say nothing."""
         match self._scene.robot.sensors.get(port):
-            case LightSensor() as sensor:
-                return raw_light(self.light(port, sensor, now))
             case TouchSensor() as sensor:
                 return PRESSED if self.pressed(sensor, now) else OPEN
-            case RotationSensor() as sensor:
-                return QUARTERS[self.counts(sensor, now) % len(QUARTERS)]
+            case LightSensor() as sensor if powered:
+                return raw_light(self.light(port, sensor, now))
+            case RotationSensor() as sensor if powered:
+                return ROTATION_LEVELS[self.counts(sensor, now) % len(ROTATION_LEVELS)]
             case _:
                 return OPEN
 
@@ -78,8 +75,10 @@ class Senses:
         reach = max(hypot(ax, ay), hypot(bx, by)) + NEAR
         if moment.room + self._scene.robot.radius > reach:
             return False
-        bumper = (*moment.pose.place(ax, ay), *moment.pose.place(bx, by))
-        return any(apart(bumper, wall) <= NEAR for wall in self._scene.floor.walls)
+        # A robot that pushes bends its bumper in: what is between its middle and the bumper presses that, too.
+        middle, one, other = moment.pose[:2], moment.pose.place(ax, ay), moment.pose.place(bx, by)
+        sides = [(*one, *other), (*middle, *one), (*middle, *other)]
+        return any(apart(side, wall) <= NEAR for wall in self._scene.floor.walls for side in sides)
 
     def counts(self, sensor: RotationSensor, now: int) -> int:
         """Sixteenths of a turn since the beginning, forward less backward."""

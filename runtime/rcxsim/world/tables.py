@@ -17,6 +17,7 @@ from golc.theory.suggest import did_you_mean
 
 FURTHEST = 100_000.0
 """mm: nothing is further away."""
+MOST_POINTS = 1000
 SHOWN = 40
 """Characters of a wrong value that a message shows at most."""
 
@@ -24,8 +25,11 @@ SHOWN = 40
 class Table:
     """One table of a file; asking for a key makes it known, and ``finish`` tells of those that nobody has asked for."""
 
-    def __init__(self, data: Mapping[str, Any], path: Path, places: Places, findings: Findings) -> None:
+    def __init__(
+        self, data: Mapping[str, Any], path: Path, places: Places, findings: Findings, absent: bool = False
+    ) -> None:
         self._data = data
+        self._absent = absent  # which has been told, and nothing is missing in it
         self._path = path
         self._places = places
         self.findings = findings
@@ -61,7 +65,8 @@ class Table:
         """The value of a key that must be there, or None, and then a finding."""
         if self.has(key):
             return self._data[key]
-        self.error(f"`{key}` is missing in {self.title}", self.header, help=f"it is {wanted}")
+        if not self._absent:
+            self.error(f"`{key}` is missing in {self.title}", self.header, help=f"it is {wanted}")
         return None
 
     def number(self, key: str, least: float, most: float, default: float | None = None) -> float:
@@ -82,11 +87,13 @@ class Table:
         return x, y
 
     def points(self, key: str) -> list[Point]:
-        """Two points at least, no two of them alike that follow each other; something like that if it is wrong."""
+        """Two points at least, no two of them alike that follow each other; others if it is wrong."""
         wanted = "an array of two points at least: `[[0, 0], [500, 0]]`"
         value = self.get(key, wanted)
         if value is not None and (not isinstance(value, list) or len(value) < 2):
             self._wrong(key, value, wanted, self.place(key))
+        if isinstance(value, list) and len(value) > MOST_POINTS:
+            self.error(f"`{key}` has {len(value)} points, and can have {MOST_POINTS}", self.place(key))
         found: list[Point] = []
         for place, part in enumerate(value if isinstance(value, list) else ()):
             x, y = self._numbers(key, part, 2, -FURTHEST, FURTHEST, place)
@@ -94,10 +101,10 @@ class Table:
                 self.error(f"a point of `{key}` is the same as the one before it", self.place(key, place))
             else:
                 found.append((x, y))
-        return found if len(found) > 1 else [(0.0, 0.0), (1.0, 0.0)]
+        return found if len(found) > 1 else [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0)]
 
-    def word(self, key: str, words: Collection[str], default: str | None = None) -> str:
-        """One of some words."""
+    def word(self, key: str, words: Collection[str], default: str | None = None) -> str | None:
+        """One of some words; None if it is wrong."""
         if default is not None and not self.has(key):
             return default
         listed = ", ".join(words)
@@ -108,8 +115,8 @@ class Table:
         if value is not None and (not isinstance(value, str) or value not in words):
             help_ = did_you_mean(str(value), words) or f"it is {wanted}"
             self.error(f"`{key}` cannot be `{shown(value)}`", self.place(key), help=help_)
-            value = None
-        return value if value is not None else next(iter(words), "")
+            return None
+        return value
 
     def text(self, key: str) -> str:
         """Any text of one line."""
@@ -148,13 +155,13 @@ class Table:
             self._wrong(key, value, "true or false", self.place(key))
         return value is True
 
-    def table(self, key: str) -> Table:
-        """The table of that name, empty if it is missing."""
-        value = self._data[key] if self.has(key) else {}
-        if not isinstance(value, dict):
-            self._wrong(key, value, "a table", self.place(key))
-            value = {}
-        return Table(value, (*self._path, key), self._places, self.findings)
+    def table(self, key: str, needed: bool = False) -> Table:
+        """The table of that name, empty if it is missing or wrong."""
+        value = self.get(key, "a table") if needed else self._data[key] if self.has(key) else {}
+        if isinstance(value, dict):
+            return Table(value, (*self._path, key), self._places, self.findings)
+        self._wrong(key, value, "a table", self.place(key))
+        return Table({}, (*self._path, key), self._places, self.findings, absent=True)
 
     def tables(self, key: str) -> list[Table]:
         """The tables with names of their own in a table: ``[stations.3]``."""
@@ -170,14 +177,17 @@ class Table:
         paths = ((*self._path, key, place) for place in range(len(value)))
         return [Table(part, path, self._places, self.findings) for part, path in zip(value, paths, strict=True)]
 
-    def either(self, *keys: str) -> str:
-        """Which one of some keys is there; a finding if it is none or several."""
+    def either(self, *keys: str) -> str | None:
+        """Which one of some keys is there; None, and a finding, if it is none or several."""
         there = [key for key in keys if self.has(key)]
+        if self._absent:
+            return None
         if len(there) != 1:
             where = self._places.key((*self._path, there[1])) if there else self.header
             listed = " or ".join(f"`{key}`" for key in keys)
             self.error(f"{self.title} must have {listed}, and it has {'several' if there else 'none'}", where)
-        return there[0] if there else keys[0]
+            return None
+        return there[0]
 
     def finish(self) -> None:
         """Tell of the keys that mean nothing here."""
@@ -231,8 +241,11 @@ def read_tables(source: Source, findings: Findings) -> Table:
     try:
         data = tomllib.loads(source.text)
         return Table(data, (), Places(source), findings)
-    except ValueError as error:  # also an integer with thousands of digits
+    except tomllib.TOMLDecodeError as error:
         raise UserError(_not_toml(source, str(error))) from None
+    except ValueError:
+        where = Span(source, 0, 0)
+        raise UserError(Diagnostic(Code.SYNTAX, "a number has thousands of digits", where)) from None
     except RecursionError:
         where = Span(source, 0, 0)
         raise UserError(Diagnostic(Code.NESTING, "the values are nested too deeply", where)) from None

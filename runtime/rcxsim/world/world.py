@@ -6,9 +6,10 @@ when the motors are told something and when people do something, never on the pi
 
 from __future__ import annotations
 
-from enum import Enum
+from collections.abc import Sequence
 from math import degrees
 
+from golc.runtime.rcxsim.surroundings import OUTPUTS, Button, Mode, Output, Tone
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.rcxsim.world.drive import Drive
 from golc.runtime.rcxsim.world.geometry import Pose
@@ -16,18 +17,9 @@ from golc.runtime.rcxsim.world.people import Deed, Lift, People, Press, PutAt, P
 from golc.runtime.rcxsim.world.record import Happening, Record
 from golc.runtime.rcxsim.world.robot import SECOND
 from golc.runtime.rcxsim.world.scene import Scene, pose_at_station
-from golc.runtime.rcxsim.world.script import SOUNDS
+from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, SOUNDS
 from golc.runtime.rcxsim.world.senses import Senses
-
-
-class Mode(Enum):
-    """What an output does with its motor."""
-
-    ON = "on"
-    OFF = "off"
-    """Brakes."""
-    FLOAT = "float"
-    """Lets the motor roll on."""
+from golc.runtime.rcxsim.world.sounds import SYSTEM_SOUNDS
 
 
 class World:
@@ -40,7 +32,9 @@ class World:
         self._senses = Senses(scene, self._drive, seed)
         self._people = People(scene.script)
         self._now = 0
+        self._outputs = [Output()] * OUTPUTS
         self._turning = False
+        self._pressed: list[Button] = []
         self._held = False
         self._station = scene.station_at(scene.robot.start)
         self.record = Record()
@@ -68,27 +62,43 @@ class World:
                 self._do(deed)
         self._roll(to)
 
-    def raw(self, port: int) -> int:
-        """The raw value at an input, 0 to 2, now."""
-        return self._senses.raw(port, self._now)
+    def sense(self, powered: Sequence[bool], now: int) -> Sequence[int]:
+        """The raw values of the three inputs."""
+        self.advance(now)
+        return [self._senses.raw(port, on, self._now) for port, on in enumerate(powered)]
 
-    def motor(self, output: int, mode: Mode, forward: bool, power: int) -> None:
-        """An output, 0 to 2, does something else from now on."""
+    def pressed(self, now: int) -> Sequence[Button]:
+        """The buttons of the brick that people have pressed since the last call."""
+        self.advance(now)
+        if not self._pressed:
+            return ()
+        pressed, self._pressed = self._pressed, []
+        return pressed
+
+    def drive(self, outputs: Sequence[Output], now: int) -> None:
+        """From now on the outputs do this."""
+        self.advance(now)
         robot = self._scene.robot
         for name, wheel in (("left", self._drive.left), ("right", self._drive.right)):
-            if robot.wheels[name] == output:
-                self._drive.settle(self._now)
-                if mode is Mode.FLOAT:
-                    wheel.let_go(self._now)
-                else:
-                    speed = robot.speeds[power] if mode is Mode.ON else 0.0
-                    wheel.drive(speed if forward != (output in robot.reversed) else -speed, self._now)
-                self._stop_or_go()
+            number = robot.wheels[name]
+            output = outputs[number]
+            if output == self._outputs[number]:
+                continue
+            self._drive.settle(self._now)
+            if output.mode is Mode.FLOAT:
+                wheel.let_go(self._now)
+            else:
+                speed = robot.speeds[output.power] if output.mode is Mode.ON else 0.0
+                wheel.drive(speed if output.forward != (number in robot.reversed) else -speed, self._now)
+        if self._outputs != list(outputs):
+            self._outputs = list(outputs)
+            self._stop_or_go()
 
-    def sound(self, number: int | None) -> None:
-        """The brick makes one of its own sounds, or another one (None)."""
-        name = SOUNDS[number] if number is not None and number < len(SOUNDS) else "tone"
-        self._happen("sound", name)
+    def hear(self, tones: Sequence[Tone], now: int) -> None:
+        """The brick begins to play some tones: perhaps one of its own sounds."""
+        self.advance(now)
+        number = SYSTEM_SOUNDS.index(tuple(tones)) if tuple(tones) in SYSTEM_SOUNDS else None
+        self._happen("sound", "tone" if number is None else SOUNDS[number])
         self._people.heard(number, self._scene.station_at(self.pose), self._now)
 
     def _stop_or_go(self) -> None:
@@ -121,7 +131,10 @@ class World:
     def _do(self, deed: Deed) -> None:
         match deed:
             case Press(button, held):
-                self._senses.press(button, self._now + held)
+                if button in BRICK_BUTTONS:
+                    self._pressed.append(Button(button))
+                else:
+                    self._senses.press(button, self._now + held)
                 self._happen("press", button)
             case Lift():
                 self._drive.settle(self._now)

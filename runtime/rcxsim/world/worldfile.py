@@ -14,7 +14,7 @@ from golc.runtime.rcxsim.world.people import Line as ScriptLine
 from golc.runtime.rcxsim.world.people import PutAt
 from golc.runtime.rcxsim.world.robot import LEVELS, LightSensor, Robot, RotationSensor, Sensor, TouchSensor
 from golc.runtime.rcxsim.world.scene import Scene, pose_at_station
-from golc.runtime.rcxsim.world.script import Names, read_line
+from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, Names, read_line
 from golc.runtime.rcxsim.world.tables import FURTHEST, Table, read_tables
 from golc.syntax.text import read_source
 
@@ -25,8 +25,11 @@ LARGEST = 10_000.0
 """mm: no robot and no mark on the floor is larger."""
 FASTEST = 1_000.0
 """mm/s; within 5 ms no robot goes further than a part of its radius."""
+SOMEWHERE = [(0.0, 0.0), (1.0, 0.0)]
+"""A line in the place of one that is wrong."""
 CURVE_WITHIN = 0.1
 """mm by which the pieces of a smooth curve may be off."""
+BRICK_BUTTONS_HELP = "the buttons of the brick itself are " + ", ".join(BRICK_BUTTONS)
 _NAME = re.compile(r"\w[\w-]*")
 
 
@@ -50,13 +53,12 @@ def parse_world(source: Source) -> Scene:
 def _scene(root: Table) -> Scene:
     floor = _floor(root)
     sensors = {PORTS.index(table.name): _sensor(table) for table in _named(root, "sensors", PORTS)}
-    robot = _robot(root.table("robot"), floor, sensors)
-    buttons = [sensor.name for sensor in sensors.values() if isinstance(sensor, TouchSensor) and sensor.name]
-    return Scene(floor, robot, _script(root.table("people"), buttons, floor))
+    robot = _robot(root.table("robot", needed=True), floor, sensors)
+    return Scene(floor, robot, _script(root.table("people"), _buttons(root), floor))
 
 
 def _floor(root: Table) -> Floor:
-    ground = root.table("floor")
+    ground = root.table("floor", needed=True)
     light = _light(ground)
     ground.finish()
     patches = tuple(_patch(table) for table in root.array("patches"))
@@ -88,26 +90,32 @@ def _light(table: Table) -> float:
 
 def _patch(table: Table) -> Patch:
     (x, y), light = table.point("at"), _light(table)
-    patch: Patch
-    if table.either("size", "radius") == "radius":
-        patch = Spot(x, y, table.number("radius", 0.1, FURTHEST), light)
-    else:
-        length, width = table.numbers("size", 2, 0.1, FURTHEST)
-        patch = Rectangle(Pose(x, y, _angle(table, "facing")), length, width, light)
+    patch: Patch = Spot(x, y, 1.0, light)
+    match table.either("size", "radius"):
+        case "radius":
+            patch = Spot(x, y, table.number("radius", 0.1, FURTHEST), light)
+        case "size":
+            length, width = table.numbers("size", 2, 0.1, FURTHEST)
+            patch = Rectangle(Pose(x, y, _angle(table, "facing")), length, width, light)
+        case None:
+            return patch
     table.finish()
     return patch
 
 
 def _line(table: Table) -> Line:
-    points = table.points(curve := table.either("points", "curve"))
+    kind = table.either("points", "curve")
+    points = SOMEWHERE if kind is None else table.points(kind)
     closed = table.flag("closed")
+    if closed and points[0] == points[-1]:
+        points = points[:-1]
     if closed and len(points) < 3:
         table.error("a closed line has three points at least", table.place("closed"))
-    elif curve == "curve":
+    elif kind == "curve":
         points = smooth(points, closed)
         points = [points[place] for place in needed(points, CURVE_WITHIN)]
     elif closed:
-        points.append(points[0])
+        points = [*points, points[0]]
     line = Line(table.name, tuple(points), table.number("width", 1, LARGEST), _light(table))
     table.finish()
     return line
@@ -115,17 +123,17 @@ def _line(table: Table) -> Line:
 
 def _station(table: Table, lines: Mapping[str, Line]) -> Station:
     length, light = table.number("length", 1, LARGEST, 50.0), _light(table)
-    if table.either("along", "at") == "at":
-        (x, y), pose = table.point("at"), Pose(0.0, 0.0, _angle(table, "facing"))
-        pose = Pose(x, y, pose.heading)
-        width = table.number("width", 1, LARGEST, 50.0)
-    else:
-        line = lines.get(table.word("on", lines, next(iter(lines)) if len(lines) == 1 else None))
-        points = line.points if line is not None else ((0.0, 0.0), (FURTHEST, 0.0))
-        way = table.number("along", 0, length_of(points))
-        on_line = along(points, way)
-        pose = Pose(*on_line.place(0.0, table.number("aside", -LARGEST, LARGEST, 0.0)), on_line.heading)
-        width = table.number("width", 1, LARGEST, 2 * line.width if line is not None else 50.0)
+    pose, width = Pose(0.0, 0.0, 0.0), 50.0
+    match table.either("along", "at"):
+        case "at":
+            pose = Pose(*table.point("at"), _angle(table, "facing"))
+            width = table.number("width", 1, LARGEST, 50.0)
+        case "along":
+            line = lines.get(table.word("on", lines, next(iter(lines)) if len(lines) == 1 else None) or "")
+            points = SOMEWHERE if line is None else line.points
+            on_line = along(points, table.number("along", 0, FURTHEST if line is None else length_of(points)))
+            pose = Pose(*on_line.place(0.0, table.number("aside", -LARGEST, LARGEST, 0.0)), on_line.heading)
+            width = table.number("width", 1, LARGEST, 50.0 if line is None else 2 * line.width)
     table.finish()
     return Station(table.name, Rectangle(pose, length, width, light))
 
@@ -136,16 +144,16 @@ def _angle(table: Table, key: str) -> float:
 
 def _robot(table: Table, floor: Floor, sensors: Mapping[int, Sensor]) -> Robot:
     radius = table.number("radius", 20, LARGEST, 90.0)
-    wheels = {side: OUTPUTS.index(table.word(side, OUTPUTS)) for side in ("left", "right")}
-    if table.has("left") and table.has("right") and wheels["left"] == wheels["right"]:
+    left, right = table.word("left", OUTPUTS), table.word("right", OUTPUTS)
+    if left == right is not None:
         table.error("both wheels are driven by the same output", table.place("right"))
     robot = Robot(
-        _start(table.table("start"), floor, radius),
+        _start(table.table("start", needed=True), floor, radius),
         radius,
         table.number("wheel_base", 1, LARGEST, 120.0),
         table.number("wheel_diameter", 1, LARGEST, 56.0),
         _speeds(table),
-        wheels,
+        {"left": OUTPUTS.index(left or "A"), "right": OUTPUTS.index(right or "C")},
         frozenset(OUTPUTS.index(word) for word in table.words("reversed", OUTPUTS)),
         table.number("coasts", 0, 60, 0.2),
         sensors,
@@ -163,13 +171,18 @@ def _speeds(table: Table) -> tuple[float, ...]:
 
 
 def _start(table: Table, floor: Floor, radius: float) -> Pose:
-    if table.either("station", "at") == "station":
-        name = table.word("station", floor.stations)
-        way = table.word("facing", WAYS, "forward")
-        pose = pose_at_station(floor, PutAt(name, way == "backward")) if name else Pose(0.0, 0.0, 0.0)
-    else:
-        x, y = table.point("at")
-        pose = Pose(x, y, _angle(table, "facing"))
+    pose = Pose(0.0, 0.0, 0.0)
+    match table.either("station", "at"):
+        case "station":
+            name = table.word("station", floor.stations)
+            way = table.word("facing", WAYS, "forward")
+            if name is None:
+                return pose
+            pose = pose_at_station(floor, PutAt(name, way == "backward"))
+        case "at":
+            pose = Pose(*table.point("at"), _angle(table, "facing"))
+        case None:
+            return pose
     if pushed_out(pose.x, pose.y, radius, floor.walls) != (pose.x, pose.y):
         table.error("the robot starts in a wall", table.header, help="it needs its radius all around")
     table.finish()
@@ -177,7 +190,7 @@ def _start(table: Table, floor: Floor, radius: float) -> Pose:
 
 
 def _sensor(table: Table) -> Sensor:
-    sensor: Sensor
+    sensor: Sensor = TouchSensor()
     match table.word("kind", ("light", "touch", "rotation")):
         case "light":
             ahead = table.number("ahead", -LARGEST, LARGEST)
@@ -185,8 +198,11 @@ def _sensor(table: Table) -> Sensor:
             sensor = LightSensor(ahead, left, table.number("radius", 0, 100, 4.0), table.number("noise", 0, 50, 0.0))
         case "touch":
             sensor = _touch(table)
-        case _:
-            sensor = RotationSensor(table.word("wheel", ("left", "right")), table.number("gear", -100, 100, 1.0))
+        case "rotation":
+            wheel = table.word("wheel", ("left", "right"))
+            sensor = RotationSensor(wheel or "left", table.number("gear", -100, 100, 1.0))
+        case None:
+            return sensor
     table.finish()
     return sensor
 
@@ -205,6 +221,18 @@ def _touch(table: Table) -> TouchSensor:
         help_ = "give it a `name` for people to press it, or a `bumper` for walls, or both"
         table.error("nothing can press this touch sensor", table.header, help=help_)
     return TouchSensor(name, bumper)
+
+
+def _buttons(root: Table) -> list[str]:
+    """The names of the touch sensors; each must be one button only."""
+    found: list[str] = []
+    for table in root.tables("sensors"):
+        if table.has("name") and (name := table.text("name")):
+            if name in (*found, *BRICK_BUTTONS):
+                where = table.place("name")
+                table.error(f"there is a button `{name}` already", where, help=BRICK_BUTTONS_HELP)
+            found.append(name)
+    return found
 
 
 def _script(table: Table, buttons: list[str], floor: Floor) -> tuple[ScriptLine, ...]:

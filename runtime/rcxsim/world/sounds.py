@@ -1,0 +1,1 @@
+SYSTEM_SOUNDS: tuple[tuple[object, ...], ...] = ()
