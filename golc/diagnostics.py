@@ -137,6 +137,7 @@ class Code(Enum):
     ENDLESS_RECURSION = ("GL106", "a recursion does not end")
     RUNS_IN_CIRCLES = ("GL107", "the program runs in circles")
     BLOCKED = ("GL108", "the program is blocked and nothing can unblock it")
+    NO_ELEMENT = ("GL109", "a list has no such element")
     EVENTS = ("GL110", "a line of an events file cannot be understood")
     EVENT = ("GL111", "an action is written that cannot be reported or performed so")
     IMPOSSIBLE_EVENT = ("GL112", "an exogenous action has occurred that the theory thinks impossible")

@@ -7,7 +7,8 @@ from collections.abc import Collection, Iterator
 from typing import cast
 
 from golc.diagnostics import Code, Findings
-from golc.theory.closed import Closed, Env, NoValueError
+from golc.theory.closed import Closed, NoValueError
+from golc.theory.evaluate import Env
 from golc.theory.fitting import describe
 from golc.theory.terms import Choice, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Fluent
@@ -59,7 +60,6 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
     try:
         values = _values(fluent, args, closed)
     except (NoValueError, RecursionError) as error:
-        closed.depth = 0
         if closed.steps < 0:
             _not_decided(fluent, "they take too many steps to evaluate", findings)
             return False
@@ -79,5 +79,5 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
 def _values(fluent: Fluent, args: Env, closed: Closed) -> Collection[Value]:
     """The initial value of an instance, or all that are possible."""
     if isinstance(fluent.initial, Choice):
-        return cast(Collection[Value], closed.evaluate(fluent.initial.among, args))
-    return (closed.evaluate(fluent.initial, args),)
+        return cast(Collection[Value], closed.value(fluent.initial.among, args))
+    return (closed.value(fluent.initial, args),)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from golc.diagnostics import Code, Findings
-from golc.theory.closed import Closed, Env, NoValueError
-from golc.theory.terms import Choice, FluentTerm, PossTerm, Term
+from golc.theory.closed import Closed, NoValueError
+from golc.theory.evaluate import Env
+from golc.theory.terms import Choice, FluentTerm, PossTerm
 from golc.theory.theory import BasicActionTheory, Definition
 from golc.theory.types import Value
 
@@ -18,9 +17,9 @@ def check_invariants(theory: BasicActionTheory, findings: Findings) -> None:
 
 
 def _check(theory: BasicActionTheory, invariant: Definition, findings: Findings) -> None:
-    initially = Initially(theory.statics.get, theory.definitions.get, theory=theory)
+    initially = Initially(theory)
     try:
-        holds = initially.evaluate(invariant.body)
+        holds = initially.value(invariant.body)
     except (NoValueError, RecursionError) as error:
         if initially.steps < 0:
             message = f"whether invariant `{invariant.name}` holds at first is not decided: it takes too many steps"
@@ -37,27 +36,21 @@ def _check(theory: BasicActionTheory, invariant: Definition, findings: Findings)
         findings.error(Code.INVARIANT_AT_FIRST, message, invariant.body.span, "does not hold at first")
 
 
-@dataclass
 class Initially(Closed):
     """Evaluates terms in the initial state of a theory, with a limit on steps as for constants."""
 
-    theory: BasicActionTheory | None = None
+    def __init__(self, theory: BasicActionTheory) -> None:
+        super().__init__(theory.statics.get, theory.definitions.get)
+        self._theory = theory
 
-    def evaluate(self, term: Term, env: Env = ()) -> Value:
-        """The value of a term; fluents have their initial values."""
-        theory = self.theory
-        match term:
-            case FluentTerm(fluent=name, args=args) if theory is not None:
-                fluent = theory.fluents[name]
-                if isinstance(fluent.initial, Choice):
-                    raise NoValueError(f"`{name}` has several possible initial values", term.span)
-                return self.evaluate(fluent.initial, self._arguments(name, fluent.parameters, args, env))
-            case PossTerm(action=name, args=args) if theory is not None:
-                action = theory.actions[name]
-                inner = self._arguments(name, action.parameters, args, env)
-                value: Value = True
-                for condition in action.preconditions:
-                    value = value and self.evaluate(condition, inner)
-                return value
-            case _:
-                return super().evaluate(term, env)
+    def fluent(self, term: FluentTerm, situation: None, env: Env) -> Value:
+        fluent = self._theory.fluents[term.fluent]
+        if isinstance(fluent.initial, Choice):
+            raise NoValueError(f"`{fluent.name}` has several possible initial values", term.span)
+        args = self.arguments(fluent.name, fluent.parameters, term.args, situation, env)
+        return self.evaluate(fluent.initial, situation, args)
+
+    def poss(self, term: PossTerm, situation: None, env: Env) -> bool:
+        action = self._theory.actions[term.action]
+        args = self.arguments(action.name, action.parameters, term.args, situation, env)
+        return self.all_hold(action.preconditions, situation, args)

@@ -64,7 +64,7 @@ def _always(theory: BasicActionTheory, condition: Term) -> bool:
     if any(isinstance(part, (FluentTerm, PossTerm, Variable)) for part in subterms(condition)):
         return False
     try:
-        return Closed(theory.statics.get, theory.definitions.get, steps=1000).evaluate(condition) is True
+        return Closed(theory.statics.get, theory.definitions.get, steps=1000).value(condition) is True
     except NoValueError:
         return False
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import sys
 from collections.abc import Mapping
 from pathlib import Path
@@ -22,6 +23,23 @@ TROUBLE = {
     "senseless": "{action} could not be sensed, answered 0: {problem}",
 }
 """What is said on stderr of records that mean trouble; see also ``problem``."""
+
+
+def _outages(
+    context: click.Context, parameter: click.Parameter, values: tuple[str, ...]
+) -> tuple[tuple[float, float], ...]:
+    """Times of the form ``12-15.5``, in order and apart."""
+    outages = []
+    for value in values:
+        start, _, end = value.partition("-")
+        try:
+            outages.append((float(start), float(end)))
+        except ValueError:
+            raise click.BadParameter(f"{value!r} is not of the form FROM-TO, in seconds") from None
+    times = [time for outage in sorted(outages) for time in outage]
+    if not all(0 <= a < b < float("inf") for a, b in itertools.pairwise(times)):
+        raise click.BadParameter("an outage ends before it begins, or before another one ends")
+    return tuple(sorted(outages))
 
 
 @click.command(name="sim", short_help="Simulate the brick of a domain behind a serial port.")
@@ -46,6 +64,17 @@ TROUBLE = {
 )
 @click.option("--loss", type=Quantity(0, 1), default=0.0, metavar="P", help="Chance that a message is lost.")
 @click.option("--garble", type=Quantity(0, 1), default=0.0, metavar="P", help="Chance that it is damaged.")
+@click.option("--repeat", type=Quantity(0, 1), default=0.0, metavar="P", help="Chance that it arrives twice.")
+@click.option("--late", type=Quantity(0, 1), default=0.0, metavar="P", help="Chance that it is late, by up to 0.5 s.")
+@click.option("--noise", type=Quantity(0, 1), default=0.0, metavar="P", help="Chance of noise before it.")
+@click.option(
+    "--off",
+    "outages",
+    multiple=True,
+    metavar="FROM-TO",
+    callback=_outages,
+    help="Switch the brick off and on again at these seconds; may be repeated.",
+)
 @click.option("--seed", type=int, default=0, show_default=True, help="Of everything that is left to chance.")
 @click.option("--events", type=click.Path(path_type=Path), metavar="FILE", help="What happens, instead of chance.")
 @click.option(
@@ -66,6 +95,10 @@ def command(
     air_time: float,
     loss: float,
     garble: float,
+    repeat: float,
+    late: float,
+    noise: float,
+    outages: tuple[tuple[float, float], ...],
     seed: int,
     events: Path | None,
     trace: Path | None,
@@ -90,13 +123,14 @@ def command(
     from golc.loading import load
     from golc.runtime.rcxsim.line import TOWER_SLEEPS_AFTER, LineOptions
     from golc.runtime.rcxsim.serve import serve, stopped_by_signals
-    from golc.runtime.rcxsim.simulator import build
+    from golc.runtime.rcxsim.theory.simulator import build
     from golc.runtime.rcxsim.trace import Trace, to_file
     from golc.runtime.sources.schedule import read_schedule
 
     theory = load(file, constants)
     schedule = None if events is None else read_schedule(events, theory)
-    options = LineOptions(air_time, loss, garble, echo, TOWER_SLEEPS_AFTER if sleep else None)
+    sleeps = TOWER_SLEEPS_AFTER if sleep else None
+    options = LineOptions(air_time, loss, garble, echo, sleeps, repeat, late, noise, outages)
     with contextlib.ExitStack() as stack:
         readers = [_teller(console)]
         if trace is not None:

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
+from golc.bytecode.image import ChunkType, Image, read_image, variables_used
 from golc.diagnostics import Code, DeviceError, Diagnostic, Label, Source, Span, UserError
-from golc.nqc.image import ChunkType, Image, read_image, variables_used
 from golc.nqc.userfiles import read_nqc
 
 SECONDS = 30

@@ -79,7 +79,7 @@ class Compiler:
         self.layout = layout
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
         self._made: dict[tuple[str, str], str] = {}
-        self._positions: dict[int, str] = {}
+        self._depth = guards.Depth()
 
     def function(self, parameters: str, lines: list[str]) -> Callable[..., Any]:
         """A Python function of generated lines."""
@@ -246,7 +246,7 @@ class Compiler:
         """The name of a mapping from argument tuples; that of an expression is filled when it is asked."""
         if isinstance(static.body, Mapping):
             return self.bind("table", static.body)
-        memo = guards.Memo(static)
+        memo = guards.Memo(static, self._depth)
         name = self._made["static", static.name] = self.bind("static", memo)  # before its body, which may be recursive
         cells = variables(len(static.parameters))
         body = static.body

@@ -11,14 +11,15 @@ from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 from golc.diagnostics import Span
-from golc.situation import errors
 from golc.situation.compile import Cells, Compiler, fits, variables
 from golc.situation.interpret import Interpreter
 from golc.situation.layout import Layout, State
+from golc.theory import errors
+from golc.theory.fitting import describe
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
-from golc.theory.types import Value, show_call
+from golc.theory.types import Value, show, show_call
 
 Args: TypeAlias = tuple[Value, ...]
 
@@ -138,7 +139,7 @@ class Dynamics:
         for parameter, arg in zip(parameters, args, strict=True):
             if arg not in parameter.type:
                 call = show_call(action, args)
-                return f"{show_call('', (arg,))[1:-1]} in `{call}` is outside {errors.describe(parameter.type)}"
+                return f"{show(arg)} in `{call}` is outside {describe(parameter.type)}"
         return None
 
     def _compile_possible(self, name: str) -> Callable[..., bool]:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
-from golc.situation import errors
+from golc.theory import errors
+from golc.theory.evaluate import DEPTH
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Operation, Quantified, Term
 from golc.theory.theory import Static
@@ -12,6 +13,12 @@ from golc.theory.types import Type, Value, show_call
 
 MOST_REMEMBERED = 100_000
 """How many values of one static function are kept."""
+
+
+class Depth:
+    """How many calls of static functions are open, whichever they are."""
+
+    open = 0
 
 
 class Positions(dict[Value, int]):
@@ -30,26 +37,28 @@ class Memo(dict[tuple[Value, ...], Value]):
 
     function: Callable[..., Value]
 
-    def __init__(self, static: Static) -> None:
+    def __init__(self, static: Static, depth: Depth) -> None:
         super().__init__()
         self._static = static
-        self._within = False
+        self._depth = depth
 
     def __missing__(self, args: tuple[Value, ...]) -> Value:
-        if self._within:
+        if self._depth.open:
             return self._compute(args)
-        self._within = True
-        try:
-            with deep_recursion(EVALUATION):
-                return self._compute(args)
-        except RecursionError:
-            raise errors.endless(self._static.span, self._static.name) from None
-        finally:
-            self._within = False
+        with deep_recursion(EVALUATION):
+            return self._compute(args)
 
     def _compute(self, args: tuple[Value, ...]) -> Value:
-        static = self._static
-        value = self.function((), *args)
+        static, depth = self._static, self._depth
+        if depth.open >= DEPTH:
+            raise errors.endless(static.span, static.name)
+        depth.open += 1
+        try:
+            value = self.function((), *args)
+        except RecursionError:
+            raise errors.endless(static.span, static.name) from None
+        finally:
+            depth.open -= 1
         if value not in static.type:
             assert not isinstance(static.body, Mapping)
             raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)

@@ -76,7 +76,7 @@ def evaluated(context: Context, found: Term) -> Literal | None:
     # Evaluating may resolve a declaration, which evaluates a constant of its own.
     around, closed.depth = closed.depth, 0
     try:
-        return Literal(closed.evaluate(found), type=found.type, span=found.span)
+        return Literal(closed.value(found), type=found.type, span=found.span)
     except NoValueError as error:
         if error.reason:
             context.error(Code.NO_VALUE, f"this has no value: {error.reason}", error.span)

@@ -1,0 +1,1 @@
+"""Simulated bricks behind one line: one that a theory drives, and a machine that executes what nqc compiles."""

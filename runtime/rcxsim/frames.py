@@ -17,6 +17,8 @@ BYTE_SECONDS = BITS_PER_BYTE / 2400
 MESSAGE_BYTES = 9
 SET_MESSAGE = 0xF7
 """Puts its one parameter into the receiver's message buffer; never answered."""
+TRANSFER = 0x45
+"""Carries a block of a download: the only request whose length is not in its op code."""
 TOGGLE = 0x08
 """Bit of an op code that tells a new request from the same one sent again."""
 
@@ -37,9 +39,15 @@ def message_in(payload: bytes) -> int | None:
     return payload[1] if len(payload) == 2 and payload[0] | TOGGLE == SET_MESSAGE | TOGGLE else None
 
 
-def payload_length(op_code: int) -> int:
-    """Payload bytes of a request: the low three bits of its op code count the parameters; 6 and 7 stand for 0 and 1."""
-    parameters = op_code & 7
+def payload_length(payload: bytes) -> int:
+    """Bytes of a request whose beginning is known; an estimate that is too small while that is not enough to know it.
+
+    The low three bits of its op code count the parameters, 6 and 7 stand for 0 and 1. A transfer says itself how many
+    bytes it carries: op code, two bytes of sequence, two of length, so many, a check sum.
+    """
+    if payload[0] & ~TOGGLE == TRANSFER:
+        return 6 + (int.from_bytes(payload[3:5], "little") if len(payload) >= 5 else 0)
+    parameters = payload[0] & 7
     return 1 + (parameters - 6 if parameters > 5 else parameters)
 
 
@@ -85,7 +93,7 @@ class Receiver:
             return False
         if not pairs:
             return True
-        length = payload_length(pairs[0])
+        length = payload_length(bytes(pairs[::2]))
         if len(pairs) < 2 * length + 2:
             return True
         payload = bytes(pairs[0 : 2 * length : 2])

@@ -136,7 +136,7 @@ def test_an_error_while_planning_has_its_place(tmp_path: Path) -> None:
     assert done.returncode == 5
     assert "GL101" in done.stderr
     assert f"{domain}:5:17" in done.stderr
-    assert "x would become 4, which is outside its type t (1..3)" in done.stderr
+    assert "`x` would be 4, which is outside `t` (1..3)" in done.stderr
 
 
 def test_a_goal_needs_no_program() -> None:

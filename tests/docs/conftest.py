@@ -23,7 +23,7 @@ from golc.cli import invoke
 ROOT = Path(__file__).parents[2]
 PATIENCE = 60.0
 """Real seconds after which a command that says nothing is given up."""
-QUICK = ("check", "plan", "gen-nqc")
+QUICK = ("check", "plan", "test", "gen-nqc")
 """Commands without threads and signals: they are called in this process, which takes a tenth of the time."""
 
 TIMING = re.compile(r"(?:\b\d+\.\d+|\b\d+) s\b")

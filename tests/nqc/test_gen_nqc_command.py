@@ -11,10 +11,10 @@ from pathlib import Path
 
 import pytest
 
+from golc.bytecode.image import read_image
 from golc.cli import invoke
 from golc.diagnostics import DeviceError
 from golc.nqc.download import download
-from golc.nqc.image import read_image
 from golc.nqc.toolchain import Target
 
 ROBOT = """\

@@ -109,7 +109,7 @@ def test_an_action_with_an_endless_type_is_refused(tmp_path: Path) -> None:
 
 
 def test_an_action_that_leaves_a_type_is_an_error(tmp_path: Path) -> None:
-    with pytest.raises(ProgramError, match="at would become 3, which is outside its type"):
+    with pytest.raises(ProgramError, match="`at` would be 3, which is outside"):
         plan(tmp_path, "domain d\nfluent at: 1..2 = 1\naction up:\n    causes at := at + 1\n", "at = 1 and at = 2")
 
 

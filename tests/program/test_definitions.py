@@ -77,6 +77,11 @@ class Definitions:
                 return self._final(statement, env, s, entered)
         raise AssertionError(p)
 
+    def _bindings(self, binders: Any, where: Any, s: Any, env: Any) -> list[Any]:
+        found: list[Any] = []
+        self.i.visit(binders, where, s, env, found.append)
+        return found
+
     def _branch(self, kind: str, parts: Any, index: int, s: Any, entered: frozenset[str]) -> list[Any]:
         return [
             (label, (kind, (*parts[:index], left, *parts[index + 1 :])), after)
@@ -96,7 +101,7 @@ class Definitions:
             if bodies[index] is not None and (found := inside(index, bodies[index])):
                 return found
             if going_on[index] is None:
-                for inner in self.i.bindings(handler.binders, handler.condition, s, env):
+                for inner in self._bindings(handler.binders, handler.condition, s, env):
                     if found := inside(index, ("at", handler.body, inner)):
                         return found
         return []
@@ -134,7 +139,7 @@ class Definitions:
             case typed.Choose():
                 return [t for branch in d.branches for t in self.trans(("at", branch, env), s, entered)]
             case typed.Pick():
-                inner = self.i.bindings(d.binders, d.where, s, env)
+                inner = self._bindings(d.binders, d.where, s, env)
                 return [t for e in inner for t in self.trans(("at", d.body, e), s, entered)]
             case typed.Invoke():
                 return self._call(d, env, s, entered)
@@ -169,7 +174,7 @@ class Definitions:
                 return ("rounds", d.body, env, max(0, most))
             case typed.For():
                 config = NIL
-                for inner in reversed(list(self.i.bindings(d.binders, None, s, env))):
+                for inner in reversed(self._bindings(d.binders, None, s, env)):
                     turn = d.body if d.where is None else typed.If(d.where, d.body, typed.Skip())
                     config = ("seq", ("at", turn, inner), config)
                 return config
@@ -198,7 +203,7 @@ class Definitions:
             case typed.Choose():
                 return any(self.final(("at", branch, env), s, entered) for branch in d.branches)
             case typed.Pick():
-                inner = self.i.bindings(d.binders, d.where, s, env)
+                inner = self._bindings(d.binders, d.where, s, env)
                 return any(self.final(("at", d.body, e), s, entered) for e in inner)
             case typed.Invoke():
                 procedure = self.theory.procedures[d.procedure]

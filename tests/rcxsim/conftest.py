@@ -14,7 +14,7 @@ import pytest
 from golc.loading import load
 from golc.runtime.rcxsim.frames import Receiver, message, message_in
 from golc.runtime.rcxsim.line import Line, LineOptions
-from golc.runtime.rcxsim.simulator import build
+from golc.runtime.rcxsim.theory.simulator import build
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.sources.schedule import Schedule, read_schedule
 from golc.theory.theory import BasicActionTheory

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import pytest
 
 from golc.nqc.wire import Wire
-from golc.runtime.rcxsim.classic import ClassicProgram, Phase, digits, spell
+from golc.runtime.rcxsim.theory.classic import ClassicProgram, Phase, digits, spell
 from golc.runtime.rcxsim.trace import Trace
 
 CONTINUE, POLL, NONE, MORE_TIME, ABORT, PANIC = 82, 83, 84, 85, 81, 80

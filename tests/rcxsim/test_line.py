@@ -11,6 +11,7 @@ from hypothesis import strategies as st
 
 from golc.runtime.rcxsim.frames import Receiver, message, message_in
 from golc.runtime.rcxsim.line import Line, LineOptions, damage
+from golc.runtime.rcxsim.theory.programs import Programs
 from golc.runtime.rcxsim.trace import Trace
 
 POLL = bytes.fromhex("55 ff 00 f7 08 53 ac 4a b5")
@@ -33,10 +34,13 @@ class Parrot:
     def due(self) -> float | None:
         return None
 
+    def reset(self, now: float) -> None:
+        self.heard.append(0)
+
 
 def line(*, seed: int = 0, **options: object) -> tuple[Line, Parrot]:
     parrot = Parrot()
-    return Line([parrot], LineOptions(**options), random.Random(seed), Trace()), parrot  # type: ignore[arg-type]
+    return Line(Programs([parrot], Trace()), LineOptions(**options), random.Random(seed), Trace()), parrot  # type: ignore[arg-type]
 
 
 def messages(data: bytes) -> list[int | None]:
@@ -117,14 +121,14 @@ def test_tower_that_sleeps_misses_the_answer() -> None:
             return getattr(self, "at", None)
 
     for sleep, expected in ((4.0, b""), (None, message(7))):
-        tower = Line([Slow()], LineOptions(echo=False, sleep=sleep), random.Random(0), Trace())
+        tower = Line(Programs([Slow()], Trace()), LineOptions(echo=False, sleep=sleep), random.Random(0), Trace())
         tower.host_sent(POLL, 0.0)
         assert tower.advance(10.0) == expected
 
 
 def test_every_brick_in_sight_hears_everything() -> None:
     left, right = Parrot(), Parrot()
-    tower = Line([left, right], LineOptions(air_time=0.0), random.Random(0), Trace())
+    tower = Line(Programs([left, right], Trace()), LineOptions(air_time=0.0), random.Random(0), Trace())
     tower.host_sent(POLL, 0.0)
     assert left.heard == right.heard == [83]
 
@@ -155,9 +159,61 @@ def test_garbled_messages_do_not_arrive_as_others() -> None:
     assert 400 < len(parrot.heard) < 600
 
 
+def test_a_packet_that_is_repeated_is_heard_twice() -> None:
+    tower, parrot = line(repeat=1.0, echo=False)
+    tower.host_sent(POLL, 0.0)
+    assert messages(tower.advance(1.0)) == [84, 84]
+    assert parrot.heard == [83]  # while it answered the first, it did not hear the second
+
+
+def test_a_packet_that_is_repeated_to_a_brick_that_does_not_answer_at_once() -> None:
+    class Silent(Parrot):
+        def hear(self, value: int, now: float) -> Sequence[int]:
+            self.heard.append(value)
+            return []
+
+    silent = Silent()
+    tower = Line(Programs([silent], Trace()), LineOptions(repeat=1.0), random.Random(0), Trace())
+    tower.host_sent(POLL, 0.0)
+    tower.advance(1.0)
+    assert silent.heard == [83, 83]
+
+
+def test_late_packets_keep_their_order() -> None:
+    tower, parrot = line(late=0.5, echo=False, air_time=0.0, sleep=None)
+    sent = list(range(1, 101))
+    received = b"".join(tower.host_sent(message(value), value / 20) for value in sent)
+    received += tower.advance(100.0)
+    assert parrot.heard == sent
+    assert messages(received) == [value + 1 for value in sent]
+
+
+def test_a_late_packet_is_at_most_half_a_second_late() -> None:
+    tower, parrot = line(late=1.0, echo=False, air_time=0.0)
+    tower.host_sent(POLL, 0.0)
+    assert parrot.heard == []
+    tower.advance(0.51)
+    assert parrot.heard == [83]
+
+
+def test_noise_before_a_packet_does_not_hide_it() -> None:
+    tower, parrot = line(noise=1.0, echo=False, air_time=0.0)
+    received = b"".join(tower.host_sent(POLL, float(second)) for second in range(50))
+    assert parrot.heard == [83] * 50
+    assert len(received) > 50 * 9
+    assert messages(received).count(84) == 50
+
+
+def test_a_brick_that_is_off_hears_nothing_and_starts_anew() -> None:
+    tower, parrot = line(outages=((1.0, 2.0),), air_time=0.0, echo=False)
+    for time in (0.5, 1.5, 2.5):
+        tower.host_sent(POLL, time)
+    assert parrot.heard == [83, 0, 83]
+
+
 def test_same_seed_same_noise() -> None:
     def run(seed: int) -> list[bytes]:
-        tower, _ = line(seed=seed, air_time=0.0, loss=0.2, garble=0.2)
+        tower, _ = line(seed=seed, air_time=0.0, loss=0.2, garble=0.2, repeat=0.2, late=0.2, noise=0.2)
         return [tower.host_sent(POLL, float(second)) for second in range(200)]
 
     assert run(1) == run(1)

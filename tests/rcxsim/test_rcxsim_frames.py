@@ -40,6 +40,12 @@ def test_receives_request_with_five_parameters() -> None:
     assert received(packet(versions)) == [versions]
 
 
+def test_receives_a_transfer_which_says_its_own_length() -> None:
+    block = bytes.fromhex("45 01 00 03 00 0a 0b 0c 21")
+    assert received(packet(block)) == [block]
+    assert received(packet(b"\x4d" + block[1:])) == [b"\x4d" + block[1:]]
+
+
 def test_skips_noise_between_packets() -> None:
     assert received(b"\x00\xff\x55\x55" + POLL + b"\x17\x55\xff" + POLL) == [b"\xf7\x53", b"\xf7\x53"]
 

@@ -144,6 +144,23 @@ def test_trace_is_json_lines(sim: Sim, lift_file: Path, tmp_path: Path) -> None:
     assert records[3]["message"] == 64
 
 
+def test_a_brick_that_is_switched_off_does_not_answer(sim: Sim, lift_file: Path) -> None:
+    _, path = ready(sim(lift_file, "--air-time", 0, "--off", "0-100000", "--echo"))
+    tower = os.open(path, os.O_RDWR | os.O_NOCTTY)
+    try:
+        assert ask(tower, POLL, 9) == POLL
+        assert not select.select([tower], [], [], 0.3)[0]
+    finally:
+        os.close(tower)
+
+
+@pytest.mark.parametrize("outages", [["5"], ["5-x"], ["5-4"], ["5-9", "7-12"], ["-1-3"], ["5-inf"], ["nan-5"]])
+def test_outages_that_make_no_sense_are_refused(sim: Sim, lift_file: Path, outages: list[str]) -> None:
+    code, complaint = ended(sim(lift_file, *[f"--off={outage}" for outage in outages]))
+    assert code == 2
+    assert "--off" in complaint
+
+
 def test_trouble_is_told_on_stderr(sim: Sim, lift_file: Path) -> None:
     child = sim(lift_file, "--air-time", 0, "--no-echo")
     tower = os.open(ready(child)[1], os.O_RDWR | os.O_NOCTTY)

@@ -12,7 +12,7 @@ import pytest
 from golc.diagnostics import UserError
 from golc.loading import load
 from golc.runtime.rcxsim.line import LineOptions
-from golc.runtime.rcxsim.simulator import build
+from golc.runtime.rcxsim.theory.simulator import build
 from golc.runtime.rcxsim.trace import Trace
 
 MakeWire = Callable[..., Any]
@@ -138,7 +138,7 @@ def test_effects_that_leave_a_type_are_told_and_not_applied(wire: MakeWire) -> N
         lift.act(32)
         lift.poll()
     last = lift.told("done")[-1]
-    assert "outside its type" in last["problem"]
+    assert "is outside" in last["problem"]
     assert last["changed"] == {}
 
 

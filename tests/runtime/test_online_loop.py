@@ -285,7 +285,7 @@ def test_an_abort_ends_the_run_as_failed_with_its_words(start: Start) -> None:
         ("nothing", (), "`nothing` is not an exogenous action of this domain"),
         ("a", (), "`a` is not an exogenous action of this domain"),
         ("become", (), "`become` takes 1 argument, not 0"),
-        ("become", (7,), "7 in `become(7)` is outside digit (0..3)"),
+        ("become", (7,), "7 in `become(7)` is outside `digit` (0..3)"),
     ],
 )
 def test_what_is_no_exogenous_action_is_refused(
@@ -338,7 +338,7 @@ def test_an_event_whose_effect_leaves_its_type_is_dropped_whatever_the_policy(
 
     run.run()
 
-    assert ["outside its type" in dropped.reason for dropped in run.only(Dropped)] == [True]
+    assert ["which is outside" in dropped.reason for dropped in run.only(Dropped)] == [True]
     assert run.value("x") == 3
 
 
@@ -361,7 +361,7 @@ def test_an_event_that_comes_before_the_device_is_free_is_taken_in_first(start: 
 def test_an_action_whose_effect_leaves_its_type_is_never_begun(start: Start) -> None:
     run = start(program("climb\nclimb").replace("action a\n", "action a\naction climb:\n    causes x := x + 2\n"))
 
-    with pytest.raises(ProgramError, match="x would become 4, which is outside its type digit"):
+    with pytest.raises(ProgramError, match="`x` would be 4, which is outside `digit`"):
         run.run()
 
     assert run.value("x") == 2

@@ -10,6 +10,7 @@ from golc.diagnostics import Findings, ProgramError, Source
 from golc.situation.dynamics import Dynamics
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
+from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
 DOMAIN = """domain d
@@ -28,16 +29,16 @@ ERRORS = [
     ("x := 1 // x", "GL103", "1 // x", "division by zero"),
     ("x := 1 % x", "GL103", "1 % x", "division by zero"),
     ("x := half(x)", "GL103", "10 // n", "division by zero"),
-    ("y := y + 3", "GL101", "y + 3", "y would become 4, which is outside its type t (1..3)"),
-    ("on(x) := true", "GL100", "x", "argument 0 of on is outside its type t (1..3)"),
-    ("x := 1 when on(y + 7)", "GL100", "y + 7", "argument 8 of on is outside its type t (1..3)"),
-    ("x := small(7)", "GL101", "n", "small(7) would become 7, which is outside its type t (1..3)"),
+    ("y := y + 3", "GL101", "y + 3", "`y` would be 4, which is outside `t` (1..3)"),
+    ("on(x) := true", "GL100", "x", "argument 0 of `on` is outside `t` (1..3)"),
+    ("x := 1 when on(y + 7)", "GL100", "y + 7", "argument 8 of `on` is outside `t` (1..3)"),
+    ("x := small(7)", "GL101", "n", "`small(7)` would be 7, which is outside `t` (1..3)"),
     ("x := z + 1", "GL102", "z", "an operand is `none`, where a value is needed"),
     ("x := 1 when z < 2", "GL102", "z", "an operand is `none`, where a value is needed"),
-    ("on(z) := true", "GL102", "z", "an argument of on is `none`, where a value is needed"),
+    ("on(z) := true", "GL102", "z", "an argument of `on` is `none`, where a value is needed"),
     ("x := min n: t where on(n). n", "GL104", "min n: t where on(n). n", "`min` over nothing has no value"),
-    ("x := ever(0)", "GL106", "ever", "the recursion of ever does not end, or goes too deep"),
-    ("forall n: t. y := n", "GL105", "causes forall n: t. y := n", "two effects give y the values 1 and 2"),
+    ("x := ever(0)", "GL106", "ever", "the recursion of `ever` does not end, or goes too deep"),
+    ("forall n: t. y := n", "GL105", "causes forall n: t. y := n", "two effects give `y` the values 1 and 2"),
 ]
 
 
@@ -83,10 +84,33 @@ def test_terms_may_be_as_deep_as_the_parser_allows() -> None:
     assert dynamics.value(dynamics.progress(state, "a", ()), "x") == 480
 
 
-def test_recursive_functions_may_go_deep_if_they_end() -> None:
-    text = (
-        DOMAIN + "static total(n: int): int = 0 if n = 0 else n + total(n - 1)\naction a:\n    causes x := total(400)\n"
+TOTAL = "static total(n: int): int = 0 if n = 0 else n + total(n - 1)\n"
+ANY = "static total(n: int): int = 0 if n = 0 or not (exists x: 1..300. total(n - 1) < 9999 * x) else n\n"
+
+
+@pytest.mark.parametrize("static", [TOTAL, ANY])
+def test_a_recursion_is_endless_at_one_depth(static: str) -> None:
+    """With n = 999 there are 1,000 calls open at a time, the most that there may be."""
+    theory = theory_of(
+        f"{DOMAIN}{static}action a:\n    causes x := total(999)\naction b:\n    causes x := total(1000)\n"
     )
-    theory = theory_of(text)
+    for way in (lambda name: Dynamics(theory).progress(Dynamics(theory).initial(), name, ()), by_the_tree(theory)):
+        way("a")
+        with pytest.raises(ProgramError, match="the recursion of `total` does not end, or goes too deep"):
+            way("b")
+
+
+def by_the_tree(theory: BasicActionTheory) -> Callable[[str], object]:
+    interpreter = Dynamics(theory).interpreter
+
+    def progress(action: str) -> object:
+        with deep_recursion():
+            return interpreter.progress(theory.actions[action], interpreter.initial(), ())
+
+    return progress
+
+
+def test_recursive_functions_may_go_deep_if_they_end() -> None:
+    theory = theory_of(f"{DOMAIN}{TOTAL}action a:\n    causes x := total(400)\n")
     dynamics = Dynamics(theory)
     assert dynamics.value(dynamics.progress(dynamics.initial(), "a", ()), "x") == 80200

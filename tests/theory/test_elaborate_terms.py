@@ -177,7 +177,7 @@ def test_a_nested_choice_of_terms_does_not_explode(found: Build) -> None:
 
 def test_an_endless_static_is_given_up(found: Build) -> None:
     assert found("static f(n: int): int = f(n + 1)\nconst c = f(1)\n") == [
-        "1:25 GL021 this has no value: the recursion does not end, or goes too deep"
+        "1:8 GL021 this has no value: the recursion of `f` does not end, or goes too deep"
     ]
 
 

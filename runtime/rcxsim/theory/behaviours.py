@@ -8,8 +8,8 @@ from dataclasses import dataclass
 
 from golc.diagnostics import DeviceError, ProgramError
 from golc.nqc.numbering import ActionMap, Entry
-from golc.runtime.rcxsim.events import Event, Events
-from golc.runtime.rcxsim.theoryworld import TheoryWorld
+from golc.runtime.rcxsim.theory.events import Event, Events
+from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.rcxsim.trace import Trace
 from golc.situation.dynamics import Args
 from golc.theory.theory import ByStart

@@ -6,11 +6,12 @@ import random
 
 from golc.diagnostics import Code, Findings, Span, UserError
 from golc.nqc.numbering import ActionMap, number_device
-from golc.runtime.rcxsim.classic import ClassicProgram
-from golc.runtime.rcxsim.events import Chance, Events, Scripted
 from golc.runtime.rcxsim.line import Line, LineOptions
-from golc.runtime.rcxsim.theorybrick import TheoryBrick
-from golc.runtime.rcxsim.theoryworld import TheoryWorld
+from golc.runtime.rcxsim.theory.behaviours import TheoryBrick
+from golc.runtime.rcxsim.theory.classic import ClassicProgram
+from golc.runtime.rcxsim.theory.events import Chance, Events, Scripted
+from golc.runtime.rcxsim.theory.programs import Programs
+from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.sources.schedule import Player, Schedule
 from golc.theory.theory import BasicActionTheory
@@ -34,7 +35,7 @@ def build(theory: BasicActionTheory, options: LineOptions, schedule: Schedule | 
         durations = _stream(seed, f"durations of {name}")
         brick = TheoryBrick(world, numbers, events, durations, trace)
         programs.append(ClassicProgram(brick, numbers.wire, trace))
-    return Line(programs, options, _stream(seed, "noise"), trace)
+    return Line(Programs(programs, trace), options, _stream(seed, "noise"), trace)
 
 
 def bricks(theory: BasicActionTheory) -> list[ActionMap]:

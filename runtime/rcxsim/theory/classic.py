@@ -145,13 +145,17 @@ class ClassicProgram:
         earliest = min(self._deadline if timed else NEVER, NEVER if due is None else due)
         return None if earliest == NEVER else earliest
 
-    def _abort(self, now: float) -> Sequence[int]:
-        self._trace.tell(now, "aborted", phase=self._phase.value)
+    def reset(self, now: float) -> None:
+        """Stop everything and begin anew: after an abort, or when the brick was switched off."""
         self._behaviours.stop_all(now)
         self._phase = Phase.READY
         self._received.clear()
         self._answer = ()
         self._last = (self._wire.abort, now)
+
+    def _abort(self, now: float) -> Sequence[int]:
+        self._trace.tell(now, "aborted", phase=self._phase.value)
+        self.reset(now)
         return ()
 
     def _sent_again(self, message: int, now: float) -> bool:

@@ -1,4 +1,4 @@
-"""The compiled program: its image read back, and the way through the main loop counted in its byte code."""
+"""How quickly a compiled program answers: the way through its main loop counted in its byte code."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from golc.diagnostics import DeviceError
-from golc.nqc.image import OPERANDS, Chunk, Image, instructions, read_image, variables_used
+from golc.bytecode.image import Image
+from golc.bytecode.opcodes import OPCODES, instructions
 from golc.nqc.toolchain import Target
 
 if TYPE_CHECKING:
@@ -35,60 +35,6 @@ def nqc_listing(workshop: Workshop, name: str, target: Target) -> str:
     command = ["nqc", f"-T{target.nqc}", "-L", f"-I{workshop.folder}", f"{name}-rcx.nqc"]
     folder = workshop.folder / "build"
     return subprocess.run(command, cwd=folder, capture_output=True, check=True, text=True).stdout
-
-
-def listing(workshop: Workshop, name: str, target: Target) -> list[tuple[int, int]]:
-    """The instructions of every chunk as nqc lists them: place and first byte."""
-    text = nqc_listing(workshop, name, target)
-    lines = re.findall(r"^(\d{3,}) .*  ([0-9a-f]{2})(?: [0-9a-f]{2})* *$", text, re.MULTILINE)
-    return [(int(place), int(code, 16)) for place, code in lines]
-
-
-@pytest.mark.parametrize("target", list(Target))
-@pytest.mark.parametrize("name", ["delivery", "elevator", "sorter"])
-def test_the_instructions_are_those_that_nqc_lists(workshop: Workshop, name: str, target: Target) -> None:
-    image = compiled(workshop, name, target)
-    mine = [instruction for chunk in image.chunks for instruction in instructions(chunk.code)]
-    assert mine == listing(workshop, name, target)
-
-
-def test_an_image_says_its_target_and_size(workshop: Workshop) -> None:
-    assert compiled(workshop, "delivery", Target.RCX).target == 0
-    image = compiled(workshop, "delivery", Target.RCX2)
-    assert image.target == 3
-    assert image.size == sum(len(chunk.code) for chunk in image.chunks)
-
-
-@pytest.mark.parametrize(
-    "data", [b"", b"RCXI", b"nonsense that is long enough", b"RCXI\x02\x01\x01\x00\x00\x00\x03\x00"]
-)
-def test_what_is_no_image_is_a_device_error(data: bytes) -> None:
-    with pytest.raises(DeviceError):
-        read_image(data)
-
-
-def test_a_cut_image_is_a_device_error(workshop: Workshop) -> None:
-    compiled(workshop, "delivery", Target.RCX2)
-    data = (workshop.folder / "build" / "delivery-rcx.rcx").read_bytes()
-    with pytest.raises(DeviceError, match="cut off"):
-        read_image(data[: len(data) // 2])
-
-
-def test_variables_are_found_in_every_kind_of_operand() -> None:
-    setv = bytes([0x14, 3, 0, 5, 0])  # var[3] = var[5]
-    constant = bytes([0x24, 4, 2, 9, 0])  # var[4] += 9
-    check = bytes([0x85, 0x80 | 2, 0, 7, 0, 8, 2])  # branch if 7 != var[8]
-    wait = bytes([0x43, 0, 40, 0])  # wait var[40]
-    send = bytes([0xB2, 0, 11])
-    assert variables_used(Chunk(0, 0, setv + constant + check + wait + send)) == {3, 4, 5, 8, 11, 40}
-
-
-def test_an_unknown_op_code_is_a_device_error() -> None:
-    with pytest.raises(DeviceError, match="ff at 1"):
-        list(instructions(bytes([0x90, 0xFF])))
-
-
-# ---- the budget
 
 
 VARIABLE, TIMER, CONSTANT, MESSAGE = 0, 1, 2, 15
@@ -112,7 +58,7 @@ class MainLoop:
 
     def following(self, place: int) -> list[int]:
         """Where an instruction can lead to."""
-        code, after = self.code, place + OPERANDS[self.code[place]].length
+        code, after = self.code, place + OPCODES[self.code[place]].length
         match code[place]:
             case 0x27:
                 return [place + 1 + _signed(code[place + 1] & 0x7F, code[place + 1])]
@@ -156,10 +102,10 @@ class MainLoop:
         in which no time is up, for that happens once in seconds. The states ABORT and PANIC begin with stopping the
         worker.
         """
-        places = dict(instructions(self.code))
+        places = {instruction.place: instruction.op.code for instruction in instructions(self.code)}
         reads = [place for place, op in places.items() if op == SET and self.code[place + 2] == MESSAGE]
-        read = next(place for place in reads if places[place + OPERANDS[SET].length] in COMPARISONS)
-        after = read + OPERANDS[SET].length
+        read = next(place for place in reads if places[place + OPCODES[SET].length] in COMPARISONS)
+        after = read + OPCODES[SET].length
         ops = {kind: {p for p, op in places.items() if op == kind} for kind in (STOP_TASK, CLEAR_MESSAGE, SEND)}
         others = ops[STOP_TASK] | ops[CLEAR_MESSAGE] | ops[SEND]
         idle = replace(self, timer=0).longest(after, lambda place: place == read, lambda place: place in others)

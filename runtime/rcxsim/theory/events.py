@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from golc.nqc.numbering import ActionMap
-from golc.runtime.rcxsim.theoryworld import TheoryWorld
+from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.sources.schedule import Player
 from golc.situation.dynamics import Args
 from golc.situation.layout import State

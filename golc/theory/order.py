@@ -1,0 +1,49 @@
+"""The order of values, in which a set is run through and written."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from typing import Any, TypeAlias, cast
+
+from golc.theory.types import Collection, Enumeration, Optional, Type, Value
+
+Key: TypeAlias = Callable[[Any], Any]
+
+
+def sort_key(type_: Type) -> Key | None:
+    """The key by which ``sorted`` puts values of a type in their order; none where that is Python's own.
+
+    Symbols and enumerations have their declared order; numbers are compared by value, texts by their characters, false
+    comes before true and ``none`` before everything; lists, and sets in their order, by the first place that differs.
+    """
+    match type_:
+        case Enumeration(values=values):
+            return {value: place for place, value in enumerate(values)}.__getitem__
+        case Optional(base=base):
+            inner = sort_key(base) or _itself
+            return lambda value: (False,) if value is None else (True, inner(value))
+        case Collection(kind=kind, element=element):
+            return _collection_key(kind == "set", sort_key(element))
+        case _:
+            return None
+
+
+def _collection_key(is_set: bool, inner: Key | None) -> Key | None:
+    if is_set:
+        return sorted if inner is None else lambda value: sorted(map(inner, value))
+    return None if inner is None else lambda value: tuple(map(inner, value))
+
+
+def _itself(value: Value) -> Value:
+    return value
+
+
+def elements(collection: Value, type_: Type) -> Sequence[Value]:
+    """The elements of a list as they stand, or those of a set in the order of the type of its elements.
+
+    ``type_`` is that of the collection; it may have the value ``none`` as well.
+    """
+    if isinstance(collection, tuple):
+        return collection
+    base = type_.base if isinstance(type_, Optional) else type_
+    return sorted(cast(Iterable[Any], collection), key=sort_key(cast(Collection, base).element))
