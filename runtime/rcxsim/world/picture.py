@@ -35,7 +35,7 @@ class _Box(NamedTuple):
 def picture(scene: Scene, record: Record, pose: Pose) -> str:
     """The text of an SVG file; ``pose`` is where the robot is in the end."""
     record.end()
-    paths = [simplified(path) for path in record.paths]
+    paths = record.paths
     box = _box(scene, paths, pose)
     width, height = box.right - box.left, box.top - box.bottom
     scale = WIDEST / max(width, height)
@@ -123,7 +123,7 @@ def _path(paths: Sequence[Sequence[Step]], text: float) -> Iterator[str]:
     first, last = steps[0].time, steps[-1].time
     for path in paths:
         for part, colour in _parts(path, first, last):
-            points = _points([(step.x, step.y) for step in part])
+            points = _points([(step.x, step.y) for step in simplified(part)])
             yield (
                 f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="{_n(text / 6)}"'
                 ' stroke-linejoin="round"/>'

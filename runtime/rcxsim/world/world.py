@@ -26,7 +26,7 @@ class World:
     """A scene in which time passes; ``seed`` is that of the sensors' noise."""
 
     def __init__(self, scene: Scene, seed: int, trace: Trace) -> None:
-        self._scene = scene
+        self.scene = scene
         self._trace = trace
         self._drive = Drive(scene.robot, scene.floor.walls)
         self._senses = Senses(scene, self._drive, seed)
@@ -52,7 +52,7 @@ class World:
     @property
     def whereabouts(self) -> str:
         """Where the robot is, for people."""
-        return "in the air" if self._drive.lifted else self._scene.whereabouts(self.pose)
+        return "in the air" if self._drive.lifted else self.scene.whereabouts(self.pose)
 
     def advance(self, to: int) -> None:
         """Let time pass until then; does nothing if it is over."""
@@ -78,7 +78,7 @@ class World:
     def drive(self, outputs: Sequence[Output], now: int) -> None:
         """From now on the outputs do this."""
         self.advance(now)
-        robot = self._scene.robot
+        robot = self.scene.robot
         for name, wheel in (("left", self._drive.left), ("right", self._drive.right)):
             number = robot.wheels[name]
             output = outputs[number]
@@ -99,14 +99,14 @@ class World:
         self.advance(now)
         number = SYSTEM_SOUNDS.index(tuple(tones)) if tuple(tones) in SYSTEM_SOUNDS else None
         self._happen("sound", "tone" if number is None else SOUNDS[number])
-        self._people.heard(number, self._scene.station_at(self.pose), self._now)
+        self._people.heard(number, self.scene.station_at(self.pose), self._now)
 
     def _stop_or_go(self) -> None:
         stands = self._drive.stands_from()
         if stands is None:
             self._people.started()
         elif self._turning:
-            self._people.stopped(self._scene.station_at(self.pose), max(stands, self._now))
+            self._people.stopped(self.scene.station_at(self.pose), max(stands, self._now))
         self._turning = stands is None
 
     def _roll(self, to: int) -> None:
@@ -122,7 +122,7 @@ class World:
             self._held = held
             if held:
                 self._happen("touches", "a wall", time, pose)
-        station = self._scene.station_at(pose)
+        station = self.scene.station_at(pose)
         if station != self._station:
             self._station = station
             if station is not None:
@@ -141,19 +141,19 @@ class World:
                 self._drive.lifted = True
                 self._happen("lift", "the robot")
             case PutBack():
-                self._put(self._scene.back_on_line(self.pose))
+                self._put(self.scene.back_on_line(self.pose))
             case PutAt():
-                self._put(pose_at_station(self._scene.floor, deed))
+                self._put(pose_at_station(self.scene.floor, deed))
             case PutDown(x, y, facing):
                 self._put(Pose(x, y, facing))
 
     def _put(self, pose: Pose) -> None:
         if self._drive.put(pose, self._now):
-            self._station = self._scene.station_at(self.pose)
+            self._station = self.scene.station_at(self.pose)
             self.record.begin(self._now / SECOND, self.pose)
             self._happen("put", f"{self.whereabouts}, facing {degrees(self.pose.heading) % 360:.0f}")
         else:
-            self._happen("no room", f"for the robot {self._scene.whereabouts(pose)}")
+            self._happen("no room", f"for the robot {self.scene.whereabouts(pose)}")
 
     def _happen(self, what: str, text: str, time: int | None = None, pose: Pose | None = None) -> None:
         at, where = self._now if time is None else time, self.pose if pose is None else pose
