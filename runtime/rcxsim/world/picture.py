@@ -197,8 +197,5 @@ def _points(points: Iterable[Point]) -> str:
 
 def _n(number: float) -> str:
     """A number with a tenth of a mm, as short as possible."""
-    return (
-        f"{number:.1f}".rstrip("0").rstrip(".").replace("-0", "0")
-        if abs(number) < 1
-        else f"{number:.1f}".removesuffix(".0")
-    )
+    text = f"{number:.1f}".removesuffix(".0")
+    return "0" if text == "-0" else text
