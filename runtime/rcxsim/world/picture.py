@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from math import cos, pi, sin
 from typing import NamedTuple
 from xml.sax.saxutils import escape
 
@@ -171,9 +170,9 @@ def _robot(robot: Robot, pose: Pose) -> Iterator[str]:
     outline = 'fill="none" stroke="#111" stroke-width="3"'
     x, y, radius = _n(pose.x), _n(-pose.y), _n(robot.radius)
     yield f'<circle cx="{x}" cy="{y}" r="{radius}" {outline}><title>the robot in the end</title></circle>'
-    tip = pose.place(robot.radius, 0.0)
-    sides = [pose.place(robot.radius * cos(angle), robot.radius * sin(angle)) for angle in (pi * 0.8, -pi * 0.8)]
-    yield f'<polygon points="{_points([tip, *sides])}" {outline}/>'
+    arrow = [(0.8, 0.0), (0.3, 0.3), (0.3, -0.3)]
+    tip = [pose.place(ahead * robot.radius, left * robot.radius) for ahead, left in arrow]
+    yield f'<polygon points="{_points(tip)}" {outline}/>'
 
 
 def _title(record: Record) -> str:

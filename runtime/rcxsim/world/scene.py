@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import atan2, cos, hypot, pi
 
@@ -35,9 +36,15 @@ class Scene:
         sensors = self.robot.sensors.values()
         return [pose.place(sensor.ahead, sensor.left) for sensor in sensors if isinstance(sensor, LightSensor)]
 
+    def station_seen(self, pose: Pose) -> str | None:
+        """The station whose mark the robot sees; without light sensors, the one that is between its wheels."""
+        return self._station_under(self.eyes(pose) or [(pose.x, pose.y)])
+
     def station_at(self, pose: Pose) -> str | None:
-        """The station at which a robot is: it looks at the mark, or has it between its wheels."""
-        points = [*self.eyes(pose), (pose.x, pose.y)]
+        """The station at which a robot is: it sees the mark, or has it between its wheels."""
+        return self._station_under([*self.eyes(pose), (pose.x, pose.y)])
+
+    def _station_under(self, points: Sequence[Point]) -> str | None:
         for station in self.floor.stations.values():
             if any(station.mark.contains(*point) for point in points):
                 return station.name

@@ -36,7 +36,7 @@ class World:
         self._turning = False
         self._pressed: list[Button] = []
         self._held = False
-        self._station = scene.station_at(scene.robot.start)
+        self._station = scene.station_seen(scene.robot.start)
         self.record = Record()
         self.record.begin(0.0, scene.robot.start)
 
@@ -122,7 +122,7 @@ class World:
             self._held = held
             if held:
                 self._happen("touches", "a wall", time, pose)
-        station = self.scene.station_at(pose)
+        station = self.scene.station_seen(pose)
         if station != self._station:
             self._station = station
             if station is not None:
@@ -149,7 +149,7 @@ class World:
 
     def _put(self, pose: Pose) -> None:
         if self._drive.put(pose, self._now):
-            self._station = self.scene.station_at(self.pose)
+            self._station = self.scene.station_seen(self.pose)
             self.record.begin(self._now / SECOND, self.pose)
             self._happen("put", f"{self.whereabouts}, facing {degrees(self.pose.heading) % 360:.0f}")
         else:
