@@ -24,8 +24,10 @@ myst_heading_anchors = 3  # the anchors of the pages where they are read as Mark
 
 html_theme = "furo"
 html_title = f"golc {release}"
+html_use_index = False
 html_copy_source = False
 html_show_copyright = False
+highlight_language = "text"
 pygments_style = "friendly"
 pygments_dark_style = "github-dark"
 

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
     from golc.diagnostics import DeviceError, Diagnostic, GolcError, LimitError, ProgramError, UserError
     from golc.loading import examine, load
     from golc.planning.limits import Limits
-    from golc.planning.planner import Executable, Outcome, Plan, Planning, executable
+    from golc.planning.planner import Executable, Planning, executable
+    from golc.planning.plans import Outcome, Plan
     from golc.rendering import render
     from golc.situation.dynamics import Dynamics
     from golc.theory.statements import Strategy
@@ -49,7 +50,8 @@ _ROOMS = {
     "golc.diagnostics": ("DeviceError", "Diagnostic", "GolcError", "LimitError", "ProgramError", "UserError"),
     "golc.loading": ("examine", "load"),
     "golc.planning.limits": ("Limits",),
-    "golc.planning.planner": ("Executable", "Outcome", "Plan", "Planning", "executable"),
+    "golc.planning.planner": ("Executable", "Planning", "executable"),
+    "golc.planning.plans": ("Outcome", "Plan"),
     "golc.rendering": ("render",),
     "golc.situation.dynamics": ("Dynamics",),
     "golc.theory.statements": ("Strategy",),

@@ -120,9 +120,13 @@ class Code(Enum):
     NO_INITIAL = ("GL050", "a fluent has no initial value")
     INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
     INVARIANT_AT_FIRST = ("GL052", "an invariant is false in the initial state")
+    NO_INITIAL_WORLD = ("GL053", "what is said of the initial situation leaves no possible world")
+
+    IDLE_CONSTRAINT = ("GL054", "a constraint on the initial situation rules nothing out")
 
     # 060..069: knowledge
     NO_CHOICE = ("GL060", "a fluent is one of no values")
+    NEVER_KNOWN = ("GL061", "something is asked that can never be known")
 
     # 070..079: programs
     UNREACHABLE = ("GL070", "an interrupt is not reached")
@@ -143,6 +147,9 @@ class Code(Enum):
     IMPOSSIBLE_EVENT = ("GL112", "an exogenous action has occurred that the theory thinks impossible")
     ABORTED = ("GL113", "the program has ended itself as failed")
     WAITS_FOR_EVER = ("GL114", "the program waits and nothing can happen any more")
+    SURPRISE = ("GL115", "a device senses what the theory thinks impossible")
+    UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
+    TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 

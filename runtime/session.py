@@ -22,7 +22,7 @@ from golc.runtime.loop.executive import Executive, Outcome
 from golc.runtime.loop.happenings import Observer, Remedy
 from golc.runtime.loop.inbox import Inbox
 from golc.runtime.loop.inbox import Source as EventSource
-from golc.runtime.loop.policy import OnImpossible, Policy
+from golc.runtime.loop.policy import OnImpossible, OnSurprise, Policy
 from golc.runtime.observers.journal import Journal
 from golc.runtime.observers.trace import BOLD, DIM, MARGIN, Style, Trace, summary
 from golc.runtime.signals import ending_on_signals
@@ -49,6 +49,7 @@ class Settings:
     journal: Path | None = None
     stop_when_idle: float | None = None
     on_impossible: OnImpossible = OnImpossible.APPLY
+    on_surprise: OnSurprise = OnSurprise.APPLY
     on_failure: Remedy | None = None
     """None: ask the operator."""
     check_invariants: bool = False
@@ -170,6 +171,7 @@ class _Session:
         idle = settings.stop_when_idle
         return Policy(
             on_impossible=settings.on_impossible,
+            on_surprise=settings.on_surprise,
             on_failure=AskAboutFailure(self.desk, self.show)
             if settings.on_failure is None
             else always(settings.on_failure),
@@ -207,7 +209,7 @@ class _Session:
 
     def speak(self, message: Message, args: Args) -> str:
         """The text of a message now."""
-        state, evaluate = self.executive.state, self.dynamics.interpreter.evaluate
+        state, evaluate = self.executive.state, self.dynamics.knowing.evaluate
         return "".join(part if isinstance(part, str) else show(evaluate(part, state, args)) for part in message.parts)
 
     def show(self, what: str) -> str:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from golc.checks.beginning import initial_worlds
 from golc.checks.devices import check_devices
 from golc.checks.initial import check_initial
 from golc.checks.invariants import check_invariants
+from golc.checks.knowledge import check_knowledge
 from golc.checks.names import check_names
 from golc.checks.programs import check_programs
 from golc.diagnostics import Diagnostic, Findings
@@ -18,7 +20,10 @@ def check(theory: BasicActionTheory, file: tree.File) -> list[Diagnostic]:
     check_names(theory, file, findings)
     check_initial(theory, findings)
     if not findings.has_errors:  # an initial value that cannot be computed has been said
-        check_invariants(theory, findings)
+        beginning = initial_worlds(theory, findings)
+        check_invariants(theory, beginning, findings)
+        if beginning is not None:
+            check_knowledge(theory, beginning, findings)
     check_programs(theory, findings)
     check_devices(theory, findings)
     return findings.diagnostics

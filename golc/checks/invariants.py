@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from golc.diagnostics import Code, Findings
+from golc.checks.beginning import Beginning
+from golc.diagnostics import Code, Findings, ProgramError, Span
 from golc.theory.closed import Closed, NoValueError
 from golc.theory.evaluate import Env
 from golc.theory.terms import Choice, FluentTerm, PossTerm
@@ -10,10 +11,35 @@ from golc.theory.theory import BasicActionTheory, Definition
 from golc.theory.types import Value
 
 
-def check_invariants(theory: BasicActionTheory, findings: Findings) -> None:
-    """The first half of row 5 of what ``golc check`` proves: invariants are true initially."""
+def check_invariants(theory: BasicActionTheory, beginning: Beginning | None, findings: Findings) -> None:
+    """The first half of row 5 of what ``golc check`` proves: invariants are true initially.
+
+    ``beginning`` is given if the theory leaves something open.
+    """
     for name in theory.invariants:
-        _check(theory, theory.definitions[name], findings)
+        invariant = theory.definitions[name]
+        if beginning is None:
+            _check(theory, invariant, findings)
+        else:
+            _check_everywhere(beginning, invariant, findings)
+
+
+def _check_everywhere(beginning: Beginning, invariant: Definition, findings: Findings) -> None:
+    """Invariants hold in each of the worlds that are possible at first."""
+    try:
+        for case in beginning.cases(invariant.body):
+            if case is None:
+                _not_decided(invariant, "too many cases are possible", findings)
+            elif not case[1]:
+                message = f"invariant `{invariant.name}` is false in a world that is possible at first"
+                notes = (f"for example where {beginning.describe(case[0])}",) if case[0] else ()
+                help_ = "if it is never so, say it: `initially …`"
+                findings.error(
+                    Code.INVARIANT_AT_FIRST, message, invariant.body.span, "not in every world", help_, notes=notes
+                )
+                return
+    except ProgramError as error:
+        _no_value(invariant, error.diagnostic.message, error.diagnostic.span, findings)
 
 
 def _check(theory: BasicActionTheory, invariant: Definition, findings: Findings) -> None:
@@ -22,18 +48,26 @@ def _check(theory: BasicActionTheory, invariant: Definition, findings: Findings)
         holds = initially.value(invariant.body)
     except (NoValueError, RecursionError) as error:
         if initially.steps < 0:
-            message = f"whether invariant `{invariant.name}` holds at first is not decided: it takes too many steps"
-            findings.warning(Code.INVARIANT_AT_FIRST, message, invariant.body.span, "evaluated only in part")
+            _not_decided(invariant, "it takes too many steps", findings)
             return
         reason, span = ("it is nested too deeply", invariant.body.span)
         if isinstance(error, NoValueError):
             reason, span = error.reason, error.span
-        message = f"invariant `{invariant.name}` cannot be evaluated in the initial state: {reason}"
-        findings.error(Code.INVARIANT_AT_FIRST, message, span, "here")
+        _no_value(invariant, reason, span, findings)
         return
     if holds is not True:
         message = f"invariant `{invariant.name}` is false in the initial state"
         findings.error(Code.INVARIANT_AT_FIRST, message, invariant.body.span, "does not hold at first")
+
+
+def _not_decided(invariant: Definition, reason: str, findings: Findings) -> None:
+    message = f"whether invariant `{invariant.name}` holds at first is not decided: {reason}"
+    findings.warning(Code.INVARIANT_AT_FIRST, message, invariant.body.span, "evaluated only in part")
+
+
+def _no_value(invariant: Definition, reason: str, span: Span, findings: Findings) -> None:
+    message = f"invariant `{invariant.name}` cannot be evaluated in the initial state: {reason}"
+    findings.error(Code.INVARIANT_AT_FIRST, message, span, "here")
 
 
 class Initially(Closed):
@@ -45,8 +79,7 @@ class Initially(Closed):
 
     def fluent(self, term: FluentTerm, situation: None, env: Env) -> Value:
         fluent = self._theory.fluents[term.fluent]
-        if isinstance(fluent.initial, Choice):
-            raise NoValueError(f"`{fluent.name}` has several possible initial values", term.span)
+        assert not isinstance(fluent.initial, Choice)
         args = self.arguments(fluent.name, fluent.parameters, term.args, situation, env)
         return self.evaluate(fluent.initial, situation, args)
 

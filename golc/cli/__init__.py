@@ -20,6 +20,7 @@ COMMANDS = {
     "check": "golc.cli.check",
     "plan": "golc.cli.plan",
     "test": "golc.cli.test",
+    "fmt": "golc.cli.fmt",
     "gen-nqc": "golc.cli.gen_nqc",
     "run": "golc.cli.run",
     "sim": "golc.cli.sim",

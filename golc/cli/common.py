@@ -6,8 +6,9 @@ import contextlib
 import math
 import os
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any, TextIO, TypeVar
 
 import click
@@ -104,3 +105,23 @@ def address(context: click.Context, parameter: click.Parameter, value: str | Non
     if not colon or not host or not (port.isascii() and port.isdecimal()) or int(port) > 65535:
         raise click.BadParameter(f"{value!r} is not of the form HOST:PORT, with a port from 0 (any free one) to 65535")
     return host.strip("[]"), int(port)
+
+
+@contextlib.contextmanager
+def completed(path: Path) -> Iterator[TextIO]:
+    """A stream to a file that takes its place, with its permissions, at the end; a pipe or a device is written to and
+    never replaced."""
+    if path.exists() and not path.is_file():
+        with path.open("w", encoding="utf-8") as stream:
+            yield stream
+        return
+    partial = path.with_name(f".golc-{os.getpid()}.part")
+    with partial.open("x", encoding="utf-8") as stream:
+        try:
+            yield stream
+            stream.flush()
+            if path.exists():
+                partial.chmod(path.stat().st_mode & 0o7777)
+            partial.replace(path)
+        finally:
+            partial.unlink(missing_ok=True)

@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import json
 import os
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, Quantity, console_options, constants_option
+from golc.cli.common import Console, Quantity, completed, console_options, constants_option
 
 if TYPE_CHECKING:
     from golc.planning.goals import GoalPlanning
-    from golc.planning.limits import Limits
-    from golc.planning.planner import Outcome, Plan, Planning
+    from golc.planning.planner import Planning
+    from golc.planning.plans import Outcome
+    from golc.theory.types import Number
 
 DONE, NO_PLAN, GAVE_UP = 0, 1, 3
 EVERY = 10**12
@@ -46,7 +46,10 @@ EVERY = 10**12
     "--nodes", type=click.IntRange(min=1), metavar="N", help="Give up after N expanded pairs of program and state."
 )
 @click.option("--stats", is_flag=True, help="Say what the search took.")
-@click.option("--format", "format_", type=click.Choice(["text", "json"]), default="text", help="How to write plans.")
+@click.option("--conformant", is_flag=True, help="Plans that work without knowing what is sensed.")
+@click.option(
+    "--format", "format_", type=click.Choice(["text", "json", "dot"]), default="text", help="How to write plans."
+)
 @click.option("-o", "--output", type=click.Path(dir_okay=False), metavar="FILE", help="Write the plans to a file.")
 @constants_option
 @console_options
@@ -62,6 +65,7 @@ def command(
     steps: int | None,
     seconds: float | None,
     nodes: int | None,
+    conformant: bool,
     stats: bool,
     format_: str,
     output: str | None,
@@ -77,49 +81,44 @@ def command(
     golc plan examples/elevator/elevator.gl 'handle(25)' --all
     golc plan examples/elevator/elevator.gl --goal 'at = 5 and not lit(5)'
     """
+    from golc.cli.plan_writing import FORMATS
+    from golc.loading import GOAL, load
+    from golc.planning.goals import GoalPlanning
     from golc.planning.limits import Limits
+    from golc.planning.planner import Planning, executable
+    from golc.theory.ground import read_procedure
+    from golc.theory.statements import Strategy
 
     _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
     if goal is not None and (procedure is not None or cheapest or most is not None):
         raise click.UsageError("--goal asks for one shortest plan without a program: no PROC, --all or --cheapest")
     limits = Limits(steps, nodes, seconds)
+    strategy = Strategy.SHORTEST if shortest else Strategy.CHEAPEST if cheapest else Strategy.FIRST
     planning: Planning | GoalPlanning
     if goal is not None:
-        program, planning = goal, _for_goal(file, constants, goal, limits)
+        program, planning = goal, GoalPlanning(load(file, constants, goal), GOAL, limits, conformant)
     else:
-        strategy = "shortest" if shortest else "cheapest" if cheapest else "first"
-        program, planning = _for_program(file, constants, procedure or "control", limits, most is not None, strategy)
+        theory = load(file, constants)
+        call = read_procedure(theory, procedure or "control")
+        ready = executable(theory, call.action, call.args, conformant)
+        if most is not None and ready.ahead.senses:
+            raise click.UsageError(
+                "--all lists sequences of actions, but plans of this domain depend on what is sensed; "
+                "those that do not are listed with --conformant"
+            )
+        program, planning = str(call), Planning(ready, limits, most is not None, strategy)
+    cost = None
     with _writer(output) as write:
-        listing = _Json(write) if format_ == "json" else _Text(write, numbered=most is not None)
+        listing = FORMATS[format_](write, most is not None)
         for plan in islice(planning, most):
             listing.add(plan)
+            cost = plan.cost
         listing.close(planning.outcome)
     outcome = planning.outcome
-    _report(console, program, outcome, stats, listing.cost)
+    _report(console, program, outcome, stats, cost)
     if outcome.plans and most is not None and outcome.plans >= most:
         return DONE
     return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
-
-
-def _for_goal(file: str, constants: Mapping[str, str], goal: str, limits: Limits) -> GoalPlanning:
-    from golc.loading import GOAL, load
-    from golc.planning.goals import GoalPlanning
-
-    return GoalPlanning(load(file, constants, goal), GOAL, limits)
-
-
-def _for_program(
-    file: str, constants: Mapping[str, str], procedure: str, limits: Limits, all_plans: bool, strategy: str
-) -> tuple[str, Planning]:
-    from golc.loading import load
-    from golc.planning.planner import Planning, executable
-    from golc.theory.ground import read_procedure
-    from golc.theory.statements import Strategy
-
-    theory = load(file, constants)
-    call = read_procedure(theory, procedure)
-    ready = executable(theory, call.action, call.args)
-    return str(call), Planning(ready, limits, all_plans, Strategy(strategy))
 
 
 def _only_one(given: Mapping[str, bool]) -> None:
@@ -138,89 +137,17 @@ def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
     if not output:
         raise click.BadParameter("a file has a name", param_hint="--output")
     try:
-        with _completed(Path(os.path.realpath(output))) as stream:
+        with completed(Path(os.path.realpath(output))) as stream:
             yield lambda line: print(line, file=stream)
     except OSError as error:
         raise click.FileError(output, error.strerror or str(error)) from None
 
 
-@contextmanager
-def _completed(path: Path) -> Iterator[TextIO]:
-    """A stream to a file that takes its place at the end; a pipe or a device is written to and never replaced."""
-    if path.exists() and not path.is_file():
-        with path.open("w", encoding="utf-8") as stream:
-            yield stream
-        return
-    partial = path.with_name(f".golc-{os.getpid()}.part")
-    with partial.open("x", encoding="utf-8") as stream:
-        try:
-            yield stream
-            stream.flush()
-            if path.exists():
-                partial.chmod(path.stat().st_mode & 0o7777)
-            partial.replace(path)
-        finally:
-            partial.unlink(missing_ok=True)
-
-
-class _Text:
-    """One action a line; with several plans a heading for each."""
-
-    def __init__(self, write: Callable[[str], None], numbered: bool) -> None:
-        self._write = write
-        self._numbered = numbered
-        self._count = 0
-        self.cost: int | None = None
-
-    def add(self, plan: Plan) -> None:
-        self._count += 1
-        self.cost = plan.cost
-        if self._numbered:
-            self._write(f"# plan {self._count}: {_actions(len(plan.actions))}")
-        for action in plan.actions:
-            self._write(str(action))
-
-    def close(self, outcome: Outcome) -> None:
-        """Nothing more to say: a failure is told on stderr."""
-
-
-class _Json:
-    """One object: ``plans`` (lists of ``{"action": name, "args": [...]}``), ``outcome``, ``gave_up``, ``expanded``.
-
-    ``cost`` is that of the cheapest plan, if it was asked for.
-    """
-
-    def __init__(self, write: Callable[[str], None]) -> None:
-        self._write = write
-        self._plans: list[Any] = []
-        self.cost: int | None = None
-
-    def add(self, plan: Plan) -> None:
-        self.cost = plan.cost
-        self._plans.append([{"action": action.action, "args": action.args} for action in plan.actions])
-
-    def close(self, outcome: Outcome) -> None:
-        """Write the object."""
-        from golc.theory.types import writable
-
-        result = "found" if outcome.plans else "gave up" if outcome.gave_up else "impossible"
-        document = {
-            "outcome": result,
-            "gave_up": outcome.gave_up,
-            "plans": writable(self._plans),
-            "cost": writable(self.cost),
-            "deepest": [str(action) for action in outcome.stuck],
-            "failed": [str(reason) for reason in outcome.reasons],
-            "expanded": outcome.expanded,
-        }
-        self._write(json.dumps(document, indent=2))
-
-
-def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: int | None) -> None:
+def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: Number | None) -> None:
     if not outcome.plans:
         verdict = outcome.gave_up or f"proven: {outcome.proof}"
         console.err(f"no plan for `{program}`: {verdict}")
-        way = ", ".join(map(str, outcome.stuck)) or "no action at all"
+        way = ", ".join(outcome.stuck) or "no action at all"
         if outcome.reasons:
             console.err(f"the longest way was: {way}; there")
         for reason in outcome.reasons:
@@ -242,7 +169,3 @@ def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost:
 
 def _plans(count: int) -> str:
     return f"{count} plan{'' if count == 1 else 's'}"
-
-
-def _actions(count: int) -> str:
-    return f"{count} action{'' if count == 1 else 's'}"

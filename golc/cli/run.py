@@ -46,6 +46,14 @@ if TYPE_CHECKING:
     help="What to do about an exogenous action that the theory thinks impossible.",
 )
 @click.option(
+    "--on-surprising-sensing",
+    "on_surprise",
+    type=click.Choice(["apply", "stop"]),
+    default="apply",
+    show_default=True,
+    help="What to do when a device senses what the theory thinks impossible.",
+)
+@click.option(
     "--on-failure",
     type=click.Choice(["ask", "retry", "next", "stop"]),
     help="What to do about an action that its device cannot do: ask (the default at a terminal), or stop.",
@@ -75,6 +83,7 @@ def command(
     journal: str | None,
     stop_when_idle: float | None,
     on_impossible: str,
+    on_surprise: str,
     on_failure: str | None,
     check_invariants: bool,
     step: bool,
@@ -94,7 +103,7 @@ def command(
     golc run examples/delivery/delivery.gl --port /dev/ttyUSB0 --journal today.jsonl
     """
     from golc.loading import load
-    from golc.runtime.loop.policy import OnImpossible
+    from golc.runtime.loop.policy import OnImpossible, OnSurprise
     from golc.runtime.session import Settings, run_online
     from golc.theory.ground import read_procedure
 
@@ -107,6 +116,7 @@ def command(
         journal=None if journal is None else Path(journal),
         stop_when_idle=stop_when_idle,
         on_impossible=OnImpossible(on_impossible),
+        on_surprise=OnSurprise(on_surprise),
         on_failure=_remedy(on_failure),
         check_invariants=check_invariants,
         step=step,

@@ -11,29 +11,30 @@ from dataclasses import dataclass, field
 
 from golc.planning.dead_end import DeadEnd
 from golc.planning.limits import Budget
+from golc.program.ahead import Ahead, Successor
 from golc.program.circles import CIRCLES, runs_in_circles
-from golc.program.labels import Act, Label, Transition
+from golc.program.labels import Act, Foreseen
 from golc.program.nodes import Node
-from golc.program.step import Machine, Path
-from golc.situation.layout import State
+from golc.program.paths import Path
+from golc.situation.worlds import State
 
 
 @dataclass(slots=True)
 class _Step:
-    """A pair on the current way, the label that led to it, and its transitions still to try.
+    """A pair on the current way, the label that led to it, and its successors still to try.
 
     ``actions`` counts the actions up to it, ``quiet`` the steps since the last one.
     """
 
-    label: Label | None
+    label: Foreseen | None
     node: Node
     state: State
     actions: int
     quiet: int
-    transitions: Iterator[Transition]
+    successors: Iterator[Successor]
     leads_on: bool = field(default=False)
 
-    def count(self, label: Label) -> tuple[int, int]:
+    def count(self, label: Foreseen) -> tuple[int, int]:
         """``actions`` and ``quiet`` after one more step; a program that runs in circles is an error."""
         if isinstance(label, Act):
             return self.actions + 1, 0
@@ -42,28 +43,27 @@ class _Step:
         return self.actions, self.quiet + 1
 
 
-def find(machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:
+def find(machine: Ahead, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None) -> Path | None:
     """The first way with at least one step from a program and a state to a final pair, or none if there is none.
 
-    ``machine`` looks ahead. Raises ``LimitError`` at a limit; ``dead_end`` is told where the search got stuck.
+    Raises ``LimitError`` at a limit; ``dead_end`` is told where the search got stuck.
     """
     reached: dict[tuple[Node, State], int] = {(node, state): 0}
-    steps = [_Step(None, node, state, 0, 0, machine.transitions(node, state))]
+    steps = [_Step(None, node, state, 0, 0, machine.successors(node, state))]
     budget.spend()
     while steps:
         step = steps[-1]
-        for label, residual in step.transitions:
+        for label, residual, after in step.successors:
             step.leads_on = True
             actions, quiet = step.count(label)
             if not budget.allows(actions):
                 continue
-            after = machine.successor(step.state, label)
             if machine.final(residual, after):
                 steps.append(_Step(label, residual, after, actions, quiet, iter(())))
                 return _path(steps)
             if _is_new(reached, (residual, after), actions, budget):
                 budget.spend()
-                steps.append(_Step(label, residual, after, actions, quiet, machine.transitions(residual, after)))
+                steps.append(_Step(label, residual, after, actions, quiet, machine.successors(residual, after)))
                 break
         else:
             if dead_end is not None and not step.leads_on:

@@ -2,36 +2,28 @@
 
 from __future__ import annotations
 
-import itertools
 from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
-from golc.diagnostics import Code, Diagnostic, LimitError, UserError
+from golc.diagnostics import LimitError
+from golc.planning import conditional
+from golc.planning.dead_end import DeadEnd
+from golc.planning.ground_actions import GroundActions
 from golc.planning.limits import Budget, Limits
-from golc.planning.planner import Outcome, Plan
-from golc.program.blame import false_parts, impossible
+from golc.planning.plans import Outcome, Plan, plan_of
+from golc.program.ahead import may_branch
+from golc.program.blame import false_parts
 from golc.program.labels import Act
+from golc.program.program import Program
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
-from golc.theory.fitting import size
+from golc.situation.worlds import State
 from golc.theory.recursion import EVALUATION, deep_recursion
-from golc.theory.theory import Action, BasicActionTheory
-from golc.theory.types import Value
-
-MOST_INSTANCES = 100_000
-"""How many ground actions of one action are tried in each state."""
+from golc.theory.statements import Strategy
+from golc.theory.theory import BasicActionTheory
 
 MOST_REASONS = 10
 """How many impossible actions are named where a search got stuck."""
-
-
-@dataclass(frozen=True)
-class _Ground:
-    """An action with arguments, and the compiled function that says whether it is possible."""
-
-    label: Act
-    possible: Callable[..., bool]
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,109 +48,83 @@ class _Reached:
 class GoalPlanning:
     """A search for the shortest plan that makes a definition true; iterate over it, then read its ``outcome``.
 
-    The first in the order of declaration, then of the parameters' types, last argument fastest, among equally short
-    ones. Raises ``UserError`` for an action whose instances cannot be listed, and while iterating ``ProgramError``
-    where the language says that something is an error.
+    The first in the order of the ground actions among equally short ones; a conditional plan if actions sense what is
+    not known, unless ``conformant``. Raises ``UserError`` for an action whose instances cannot be listed, and while
+    iterating ``ProgramError`` where the language says that something is an error.
     """
 
-    def __init__(self, theory: BasicActionTheory, goal: str, limits: Limits) -> None:
+    def __init__(self, theory: BasicActionTheory, goal: str, limits: Limits, conformant: bool = False) -> None:
         self.outcome = Outcome(proof="no sequence of actions makes it true")
         self._dynamics = Dynamics(theory)
         self._goal = theory.definitions[goal].body
         self._budget = Budget(limits)
-        self._deepest: _Reached | None = None
-        actions = [action for action in theory.actions.values() if not action.exogenous]
-        _check_finite(actions)
-        self._ground = [ground for action in actions for ground in self._instances(action)]
+        self._deepest: tuple[tuple[str, ...], State] | None = None
+        self._actions = GroundActions(self._dynamics)
+        self._branches = may_branch(self._dynamics) and not conformant
         with deep_recursion():
-            self._holds: Callable[..., bool] = self._dynamics.compiler.term(self._goal, 0)
+            self._holds: Callable[..., bool] = self._dynamics.knowing.condition(self._goal, 0)
 
     def __iter__(self) -> Iterator[Plan]:
-        outcome = self.outcome
+        outcome, found = self.outcome, None
         try:
-            found = self._search()
+            with deep_recursion(EVALUATION):
+                found = self._search()
             if found is not None:
                 outcome.plans = 1
             elif self._budget.cut:
                 outcome.gave_up = f"no plan of more than {self._budget.limits.steps} steps was considered"
         except LimitError as error:
-            found, outcome.gave_up = None, str(error)
+            outcome.gave_up = str(error)
         outcome.expanded, outcome.seconds = self._budget.expanded, self._budget.elapsed
         if found is None:
             self._explain()
         else:
-            yield Plan(found.actions())
+            yield found
 
-    def _instances(self, action: Action) -> Iterator[_Ground]:
-        possible = self._dynamics.possible_function(action.name)
-        for args in itertools.product(*[parameter.type.values for parameter in action.parameters]):
-            yield _Ground(Act(action.name, args, action.span), possible)
+    def _search(self) -> Plan | None:
+        initial = self._dynamics.initial()
+        if self._holds(initial, ()):
+            return Plan(())
+        if self._branches:
+            return self._conditional(initial)
+        reached = self._breadth_first(_Reached(initial, None, None, 0))
+        return None if reached is None else Plan(reached.actions())
 
-    def _search(self) -> _Reached | None:
-        with deep_recursion(EVALUATION):
-            start = _Reached(self._dynamics.initial(), None, None, 0)
-            if self._holds(start.state, ()):
-                return start
-            seen = {start.state}
-            open_ = deque([start])
+    def _breadth_first(self, start: _Reached) -> _Reached | None:
+        seen = {start.state}
+        open_ = deque([start])
+        reached = start
+        try:
             while open_:
                 self._budget.spend()
-                self._deepest = reached = open_.popleft()
-                for after in self._successors(reached):
-                    if after.state not in seen and self._budget.allows(after.depth):
-                        if self._holds(after.state, ()):
+                reached = open_.popleft()
+                for label, state in self._actions.successors(reached.state):
+                    if state not in seen and self._budget.allows(reached.depth + 1):
+                        after = _Reached(state, label, reached, reached.depth + 1)
+                        if self._holds(state, ()):
                             return after
-                        seen.add(after.state)
+                        seen.add(state)
                         open_.append(after)
+        finally:
+            self._deepest = tuple(map(str, reached.actions())), reached.state
         return None
 
-    def _successors(self, reached: _Reached) -> Iterator[_Reached]:
-        state = reached.state
-        for ground in self._ground:
-            label = ground.label
-            if ground.possible(state, *label.args):
-                after = self._dynamics.progress(state, label.action, label.args)
-                yield _Reached(after, label, reached, reached.depth + 1)
+    def _conditional(self, initial: State) -> Plan | None:
+        nothing = Program().nil
+        goal = conditional.Goal(self._actions, self._holds)
+        start, dead_end = (nothing, initial), DeadEnd()
+        path = conditional.find(goal, self._dynamics, Strategy.SHORTEST, start, self._budget, dead_end)
+        if path is not None:
+            return plan_of(path, self._dynamics)
+        if dead_end.node is not None:
+            self._deepest = dead_end.way, dead_end.state
+        return None
 
     def _explain(self) -> None:
         """Where the search came last, what is false of the goal there, and what is impossible if everything is."""
-        deepest = self._deepest
-        if deepest is None:
+        if self._deepest is None:
             return
-        self.outcome.stuck = deepest.actions()
-        self.outcome.reasons = false_parts(self._dynamics, deepest.state, self._goal)
-        blocked: list[tuple[str, tuple[Value, ...]]] = [
-            (ground.label.action, ground.label.args)
-            for ground in self._ground
-            if not ground.possible(deepest.state, *ground.label.args)
-        ]
-        if len(blocked) == len(self._ground):
-            first = blocked[:MOST_REASONS]
-            self.outcome.reasons += [impossible(self._dynamics, deepest.state, *call) for call in first]
-
-
-def _check_finite(actions: list[Action]) -> None:
-    """Every instance of every action can be tried; raises ``UserError`` otherwise."""
-    findings = []
-    for action in actions:
-        instances = 1
-        for parameter in action.parameters:
-            if not parameter.type.finite:
-                message = f"`{action.name}` cannot be used to plan for a goal: `{parameter.name}` has no list of values"
-                findings.append(
-                    Diagnostic(
-                        Code.BAD_TYPE,
-                        message,
-                        parameter.span,
-                        marker=f"`{parameter.type}` has no end",
-                        help="give it an interval or an enumeration as its type, or plan with a procedure",
-                    )
-                )
-                instances = 0
-            else:
-                instances *= size(parameter.type)
-        if instances > MOST_INSTANCES:
-            message = f"`{action.name}` has more than {MOST_INSTANCES} instances, too many to plan for a goal"
-            findings.append(Diagnostic(Code.BAD_TYPE, message, action.span))
-    if findings:
-        raise UserError(*findings)
+        self.outcome.stuck, state = self._deepest
+        self.outcome.reasons = false_parts(self._dynamics, state, self._goal)
+        if next(self._actions.forks(state), None) is None:
+            self.outcome.reasons += self._actions.why_not(state, MOST_REASONS)

@@ -15,39 +15,40 @@ from typing import TypeAlias
 
 from golc.planning.dead_end import DeadEnd
 from golc.planning.limits import Budget
+from golc.program.ahead import Ahead, Successor
 from golc.program.circles import CIRCLES, runs_in_circles
-from golc.program.labels import Act, Label, Transition
+from golc.program.labels import Act, Foreseen
 from golc.program.nodes import Node
-from golc.program.step import Machine, Path
-from golc.situation.layout import State
+from golc.program.paths import Path
+from golc.situation.worlds import State
+from golc.theory.types import Number
 
-Weigh: TypeAlias = Callable[[State, Act], int]
+Weigh: TypeAlias = Callable[[State, Act], Number]
 """What an action adds to the weight of a way, given the state before it; at least 0."""
 
 
 @dataclass(slots=True, eq=False)
 class _Way:
-    """A way to a pair: the label and the number, among its transitions, of the step that extends another way.
+    """A way to a pair: the label and the number, among its successors, of the step that extends another way.
 
     ``depth`` counts the steps, ``actions`` the actions, ``quiet`` the steps since the last one.
     """
 
     node: Node
     state: State
-    label: Label | None = None
+    label: Foreseen | None = None
     parent: _Way | None = None
     number: int = 0
     depth: int = 0
     actions: int = 0
     quiet: int = 0
 
-    def extended(self, machine: Machine, number: int, transition: Transition) -> _Way:
+    def extended(self, number: int, successor: Successor) -> _Way:
         """One step more; a program that runs in circles is an error."""
-        label, residual = transition
+        label, residual, after = successor
         actions, quiet = (self.actions + 1, 0) if isinstance(label, Act) else (self.actions, self.quiet + 1)
         if quiet > CIRCLES:
             raise runs_in_circles(label.span)
-        after = machine.successor(self.state, label)
         return _Way(residual, after, label, self, number, self.depth + 1, actions, quiet)
 
     def back(self) -> Iterator[_Way]:
@@ -57,7 +58,7 @@ class _Way:
             yield way
             way = way.parent
 
-    def labels(self) -> list[Label]:
+    def labels(self) -> list[Foreseen]:
         """The labels of its steps."""
         return [way.label for way in self.back() if way.label is not None][::-1]
 
@@ -75,11 +76,11 @@ class _Layer:
     """
 
     ways: list[_Way] = field(default_factory=list)
-    known: dict[tuple[Node, State], tuple[_Way, int]] = field(default_factory=dict)
-    source: int | None = None
+    known: dict[tuple[Node, State], tuple[_Way, Number]] = field(default_factory=dict)
+    source: Number | None = None
     mixed: bool = False
 
-    def add(self, way: _Way, source: int) -> None:
+    def add(self, way: _Way, source: Number) -> None:
         """Put in a way, unless it adds nothing to another: those from one layer come in program order."""
         other, came_from = self.known.setdefault((way.node, way.state), (way, source))
         if other is not way and came_from == source and other.actions <= way.actions:
@@ -110,11 +111,11 @@ def _program_order(first: _Way, second: _Way) -> int:
 
 
 def find(
-    machine: Machine, node: Node, state: State, budget: Budget, weigh: Weigh, dead_end: DeadEnd | None = None
+    machine: Ahead, node: Node, state: State, budget: Budget, weigh: Weigh, dead_end: DeadEnd | None = None
 ) -> Path | None:
     """The first of the lightest ways with at least one step to a final pair, or none if there is none.
 
-    ``machine`` looks ahead. Raises ``LimitError`` at a limit; ``dead_end`` is told where the search got stuck.
+    Raises ``LimitError`` at a limit; ``dead_end`` is told where the search got stuck.
     """
     search = _Search(machine, budget, weigh, dead_end or DeadEnd())
     goal = search.run(_Way(node, state))
@@ -124,13 +125,13 @@ def find(
 class _Search:
     """The layers of one search and the pairs that have been expanded, each with the fewest actions that led there."""
 
-    def __init__(self, machine: Machine, budget: Budget, weigh: Weigh, dead_end: DeadEnd) -> None:
+    def __init__(self, machine: Ahead, budget: Budget, weigh: Weigh, dead_end: DeadEnd) -> None:
         self._machine = machine
         self._budget = budget
         self._weigh = weigh
         self._dead_end = dead_end
-        self._layers: dict[int, _Layer] = {}
-        self._weights: list[int] = []
+        self._layers: dict[Number, _Layer] = {}
+        self._weights: list[Number] = []
         self._expanded: dict[tuple[Node, State], int] = {}
 
     def run(self, root: _Way) -> _Way | None:
@@ -144,7 +145,7 @@ class _Search:
                     break
         return goal
 
-    def _follow(self, start: _Way, weight: int) -> _Way | None:
+    def _follow(self, start: _Way, weight: Number) -> _Way | None:
         """The steps from a way that weigh nothing, depth first; others lead to a later layer."""
         stack = [(start, self._steps(start))]
         while stack:
@@ -166,15 +167,15 @@ class _Search:
         """The ways that are one step longer, as far as the budget allows."""
         self._budget.spend()
         stuck = True
-        for number, transition in enumerate(self._machine.transitions(way.node, way.state)):
+        for number, successor in enumerate(self._machine.successors(way.node, way.state)):
             stuck = False
-            after = way.extended(self._machine, number, transition)
+            after = way.extended(number, successor)
             if self._budget.allows(after.actions):
                 yield after
         if stuck:
             self._dead_end.consider(way.actions, way.labels(), way.node, way.state)
 
-    def _postpone(self, way: _Way, weight: int, source: int) -> None:
+    def _postpone(self, way: _Way, weight: Number, source: Number) -> None:
         if not self._worth(way):
             return
         if weight not in self._layers:

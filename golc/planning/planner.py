@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 from golc.diagnostics import LimitError
-from golc.planning import cheapest, depth_first, shortest
+from golc.planning import cheapest, conditional, depth_first, shortest
 from golc.planning.all_plans import enumerate_plans
 from golc.planning.dead_end import DeadEnd
 from golc.planning.limits import Budget, GivenUpSearchError, Limits
-from golc.program.blame import Blocked
+from golc.planning.plans import Outcome, Plan, plan_of
+from golc.program.ahead import Ahead
 from golc.program.build import Builder
-from golc.program.labels import Act
 from golc.program.lookahead import Request
 from golc.program.nodes import Node
+from golc.program.paths import NoPath, Path
 from golc.program.program import Program
-from golc.program.step import Machine, NoPath, Path
+from golc.program.step import Machine
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.recursion import deep_recursion
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
@@ -30,26 +31,32 @@ MOST_NODES = 500_000
 
 @dataclass(frozen=True)
 class Executable:
-    """A procedure of a theory, ready to be executed: online by ``machine``, in look-ahead by ``machine.ahead``.
+    """A procedure of a theory, ready to be executed by ``machine``, in look-ahead by ``ahead``.
 
     ``look_ahead`` does what its ``search`` blocks want.
     """
 
     dynamics: Dynamics
     machine: Machine
+    ahead: Ahead
     node: Node
     look_ahead: LookAhead
 
 
-def executable(theory: BasicActionTheory, procedure: str, args: tuple[Value, ...] = ()) -> Executable:
-    """Compile a procedure; its arguments must be of the parameters' types."""
+def executable(
+    theory: BasicActionTheory, procedure: str, args: tuple[Value, ...] = (), conformant: bool = False
+) -> Executable:
+    """Compile a procedure; its arguments must be of the parameters' types.
+
+    ``conformant``: look-ahead makes no use of what actions sense.
+    """
     dynamics = Dynamics(theory)
     program = Program()
     look_ahead = LookAhead()
-    ahead = Machine(dynamics, program, look_ahead)
+    ahead = Ahead(dynamics, program, conformant)
     with deep_recursion():
         node = Builder(dynamics, program).start(procedure, args)
-    return Executable(dynamics, Machine(dynamics, program, look_ahead, ahead), node, look_ahead)
+    return Executable(dynamics, Machine(dynamics, program, ahead, look_ahead), ahead, node, look_ahead)
 
 
 class LookAhead:
@@ -58,7 +65,7 @@ class LookAhead:
     def __init__(self) -> None:
         self._given_up = False
 
-    def __call__(self, machine: Machine, node: Node, state: State, request: Request) -> Path | NoPath:
+    def __call__(self, machine: Ahead, node: Node, state: State, request: Request) -> Path | NoPath:
         """The way, or that there is none; raises ``GivenUpSearchError`` after ``give_up``."""
         limits = Limits(steps=request.steps, seconds=request.seconds, nodes=MOST_NODES)
         budget, dead_end = Budget(limits, given_up=lambda: self._given_up), DeadEnd()
@@ -75,7 +82,7 @@ class LookAhead:
         limit = f"no way of more than {_steps(request.steps)} was considered" if budget.cut else None
         if dead_end.node is None:
             return NoPath(limit)
-        return NoPath(limit, dead_end.actions, tuple(machine.why_blocked(dead_end.node, dead_end.state)))
+        return NoPath(limit, dead_end.way, tuple(machine.why_blocked(dead_end.node, dead_end.state)))
 
     def give_up(self) -> None:
         """Have the search that is under way, otherwise the next one, end without a result; for other threads."""
@@ -83,8 +90,11 @@ class LookAhead:
 
 
 def _find(
-    strategy: Strategy, machine: Machine, node: Node, state: State, budget: Budget, dead_end: DeadEnd | None = None
+    strategy: Strategy, machine: Ahead, node: Node, state: State, budget: Budget, dead_end: DeadEnd
 ) -> Path | None:
+    if machine.senses:
+        problem = conditional.Programs(machine)
+        return conditional.find(problem, machine.dynamics, strategy, (node, state), budget, dead_end)
     match strategy:
         case Strategy.FIRST:
             return depth_first.find(machine, node, state, budget, dead_end)
@@ -96,34 +106,6 @@ def _find(
 
 def _steps(count: int | None) -> str:
     return f"{show(count)} step{'' if count == 1 else 's'}"
-
-
-@dataclass(frozen=True)
-class Plan:
-    """A sequence of primitive actions that executes a program to its end.
-
-    ``cost`` is the sum of their costs, of the cheapest plan only.
-    """
-
-    actions: tuple[Act, ...]
-    cost: int | None = None
-
-
-@dataclass
-class Outcome:
-    """What a search for plans came to.
-
-    ``stuck`` and ``reasons`` say, where no plan was found, how far the longest way came and what failed there;
-    ``gave_up`` is the limit that ended the search, if one did; ``proof`` is what is proven without plan and limit.
-    """
-
-    plans: int = 0
-    gave_up: str | None = None
-    stuck: tuple[Act, ...] = ()
-    reasons: list[Blocked] = field(default_factory=list)
-    expanded: int = 0
-    seconds: float = 0.0
-    proof: str = "it cannot be executed to its end"
 
 
 class Planning:
@@ -158,7 +140,7 @@ class Planning:
             self._explain()
 
     def _plans(self) -> Iterator[Plan]:
-        machine, node = self._executable.machine.ahead, self._executable.node
+        machine, node = self._executable.ahead, self._executable.node
         state = self._executable.dynamics.initial()
         if self._all:
             yield from map(Plan, enumerate_plans(machine, node, state, self._budget, self._dead_end))
@@ -168,10 +150,9 @@ class Planning:
             yield self._plan(path)
 
     def _plan(self, path: Path) -> Plan:
-        actions = tuple(label for label in path.labels if isinstance(label, Act))
-        if self._strategy is not Strategy.CHEAPEST:
-            return Plan(actions)
-        return Plan(actions, cheapest.cost(self._executable.dynamics, path))
+        dynamics = self._executable.dynamics
+        cost = cheapest.cost(dynamics, path) if self._strategy is Strategy.CHEAPEST else None
+        return plan_of(path, dynamics, cost)
 
     def _count(self) -> None:
         self.outcome.expanded = self._budget.expanded
@@ -180,5 +161,5 @@ class Planning:
     def _explain(self) -> None:
         dead_end = self._dead_end
         if dead_end.node is not None:
-            self.outcome.stuck = dead_end.actions
-            self.outcome.reasons = self._executable.machine.ahead.why_blocked(dead_end.node, dead_end.state)
+            self.outcome.stuck = dead_end.way
+            self.outcome.reasons = self._executable.ahead.why_blocked(dead_end.node, dead_end.state)

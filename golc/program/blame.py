@@ -3,27 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import ProgramError, Span
-from golc.program.labels import Act
+from golc.program.labels import Act, Expect
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.knowing import who_senses
+from golc.situation.worlds import State
 from golc.theory.recursion import EVALUATION, deep_recursion
-from golc.theory.terms import DefinedTerm, FluentTerm, Operation, Operator, StaticTerm, Term, Variable, subterms
+from golc.theory.terms import Operation, Operator, Term
 from golc.theory.types import Value, show, show_call
 
 if TYPE_CHECKING:
-    from golc.program.rules import Rule
-    from golc.program.step import NoPath, Path
+    from golc.program.paths import NoPath, Path
 
 
 @dataclass(frozen=True)
 class Blamed:
-    """A rule that had no transition, the reason's name, and what belongs to it."""
+    """The place of a rule that had no transition, the reason's name, and what belongs to it."""
 
-    rule: Rule
+    span: Span
     reason: str
     details: tuple[Any, ...]
 
@@ -51,21 +51,32 @@ def explain(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
 
 
 def _explained(dynamics: Dynamics, state: State, blamed: Blamed) -> Blocked:
-    span, details = blamed.rule.span, blamed.details
+    span, details = blamed.span, blamed.details
     match blamed.reason:
         case "false":
-            term, env = details
-            return Blocked(span, f"`{_text(term)}` is false", _values(dynamics, term, state, env))
+            return _not_true(dynamics, state, span, *details)
         case "impossible":
             return _impossible(dynamics, state, span, *details)
         case "no interrupt":
             handler, env = details
-            text = f"no interrupt here: `{_text(handler.term)}` does not hold"
+            text = f"no interrupt here: `{_text(handler.term)}` is not known to hold"
+            if not dynamics.compiler.uncertain:
+                text = f"no interrupt here: `{_text(handler.term)}` does not hold"
             return Blocked(handler.span, text, _values(dynamics, handler.term, state, env))
+        case "undecided":
+            (error,) = details
+            return Blocked(error.diagnostic.span, error.diagnostic.message)
         case "no value":
             return Blocked(span, "no value can be picked")
         case "waits":
-            return Blocked(span, "look-ahead cannot wait: nothing happens while it thinks")
+            return Blocked(
+                span, "look-ahead cannot wait: nothing happens while it thinks" + _unexpected(dynamics, state)
+            )
+        case "waits for":
+            blocked = _not_true(dynamics, state, span, *details)
+            return replace(blocked, text=blocked.text + _unexpected(dynamics, state))
+        case "pruned":
+            return pruned(span, *details)
         case "aborts":
             return Blocked(span, "the program would end itself as failed here")
         case "lost":
@@ -90,11 +101,12 @@ def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked
     with deep_recursion(EVALUATION):
         for part in _conjuncts(formula):
             try:
-                holds = dynamics.interpreter.holds(part, state, ())
+                holds = dynamics.knowing.verdict(part, state, ())
             except ProgramError:
                 continue
             if not holds:
-                found.append(Blocked(part.span, f"`{_text(part)}` is false", _values_if_any(dynamics, part, state)))
+                text = f"`{_text(part)}` {_is(dynamics, part, holds)}"
+                found.append(Blocked(part.span, text, _values_if_any(dynamics, part, state)))
     return found
 
 
@@ -104,6 +116,20 @@ def _values_if_any(dynamics: Dynamics, term: Term, state: State) -> tuple[tuple[
         return _values(dynamics, term, state, ())
     except ProgramError:
         return ()
+
+
+def _not_true(dynamics: Dynamics, state: State, span: Span, term: Term, env: tuple[Value, ...]) -> Blocked:
+    """A formula that is not known to be true, and whether it is false."""
+    text = f"`{_text(term)}` {_is(dynamics, term, dynamics.knowing.verdict(term, state, env))}"
+    return Blocked(span, text, _values(dynamics, term, state, env))
+
+
+def _is(dynamics: Dynamics, term: Term, verdict: bool | None) -> str:
+    """What is the matter with a formula that is not known to be true."""
+    if verdict is not None:
+        return "is false"
+    senses = who_senses(dynamics.knowing.sensing(term))
+    return "is not known" + (f" ({senses})" if senses else ", and no action senses it")
 
 
 def impossible(dynamics: Dynamics, state: State, action: str, args: tuple[Value, ...]) -> Blocked:
@@ -116,19 +142,38 @@ def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args:
     call = show_call(action, args)
     for term in dynamics.theory.actions[action].preconditions:
         for part in _conjuncts(term):
-            if not dynamics.interpreter.holds(part, state, args):
-                text = f"`{call}` is not possible: `{_text(part)}` is false"
+            verdict = dynamics.knowing.verdict(part, state, args)
+            if not verdict:
+                text = f"`{call}` is not possible: `{_text(part)}` {_is(dynamics, part, verdict)}"
                 return Blocked(span, text, _values(dynamics, part, state, args))
     return Blocked(span, f"`{call}` is not possible")
+
+
+def pruned(span: Span, prune: str, label: Act | Expect, results: tuple[Value, ...] = ()) -> Blocked:
+    """An action is possible and leads, where it has these results, to a situation that look-ahead does not enter."""
+    answer = f" where it answers {', '.join(map(show, results))}" if results else ""
+    return Blocked(span, f"`{show_call(label.action, label.args)}` is pruned by `{prune}`{answer}")
 
 
 def _how_far(none: NoPath) -> str:
     """How far a search came that found no way, and what stopped it."""
     text = f"; {none.limit}" if none.limit else ""
     if none.reasons:
-        way = f"the longest way was {', '.join(map(str, none.deepest))}; there" if none.deepest else "stuck at once:"
+        way = f"the longest way was {', '.join(none.deepest)}; there" if none.deepest else "stuck at once:"
         text += f"; {way} {' and '.join(map(valued, none.reasons))}"
     return text
+
+
+def _unexpected(dynamics: Dynamics, state: State) -> str:
+    """Why none of the expected exogenous actions happens, if there are any."""
+    expected = [action for action in dynamics.theory.actions.values() if action.expected]
+    reasons = [
+        f"no `{action.name}` is possible"
+        if action.parameters
+        else valued(_impossible(dynamics, state, action.span, action.name, ()))
+        for action in expected
+    ]
+    return f", and nothing is expected: {'; '.join(reasons)}" if reasons else ""
 
 
 def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath) -> Blocked:
@@ -141,7 +186,7 @@ def _lost(dynamics: Dynamics, state: State, path: Path, index: int, none: NoPath
         text += f"; it counted on {were}"
     text += _how_far(none)
     at = path.labels[index].span if index < len(path.labels) else path.labels[-1].span
-    return Blocked(at, text, changed, sum(isinstance(label, Act) for label in path.labels[:index]))
+    return Blocked(at, text, changed, path.actions(index))
 
 
 def _conjuncts(term: Term) -> Iterator[Term]:
@@ -159,17 +204,4 @@ def _text(term: Term) -> str:
 
 
 def _values(dynamics: Dynamics, term: Term, state: State, env: tuple[Value, ...]) -> tuple[tuple[str, Value], ...]:
-    """The ground fluents, definitions and variables that a term speaks of, each once, with their values."""
-    values: dict[str, Value] = {}
-    for part in subterms(term):
-        if any(isinstance(inner, Variable) and inner.level >= len(env) for inner in subterms(part)):
-            continue
-        match part:
-            case Variable(name=name, level=level):
-                values[name] = env[level]
-            case FluentTerm(fluent=name, args=args) | DefinedTerm(definition=name, args=args):
-                of = tuple(dynamics.interpreter.evaluate(arg, state, env) for arg in args)
-                values[show_call(name, of)] = dynamics.interpreter.evaluate(part, state, env)
-            case StaticTerm():
-                continue
-    return tuple(values.items())
+    return tuple(dynamics.knowing.spoken_of(term, state, env).items())

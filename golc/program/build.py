@@ -10,12 +10,12 @@ from golc.program import concurrency, iteration, lookahead, rules, timing
 from golc.program.nodes import Node
 from golc.program.program import Program
 from golc.program.rules import Rule
-from golc.situation.compile import environment
+from golc.situation.compile import FORMULA
 from golc.situation.dynamics import Dynamics
 from golc.theory import statements as st
-from golc.theory.terms import Binder, Term, Variable, subterms
+from golc.theory.terms import Binder, Term, Variable, ranges, subterms
 from golc.theory.theory import Parameter, Procedure
-from golc.theory.types import Value, show
+from golc.theory.types import Number, Value, show
 
 LONGEST = 10**9
 """Seconds; more than 30 years are as good as for ever, and what the clock can count in."""
@@ -27,7 +27,7 @@ class Builder:
     def __init__(self, dynamics: Dynamics, program: Program) -> None:
         self.dynamics = dynamics
         self.theory = dynamics.theory
-        self.compiler = dynamics.compiler
+        self.knowing = dynamics.knowing
         self.program = program
         self._bodies: dict[str, Rule] = {}
         self._calls: list[rules.Invoke] = []
@@ -75,14 +75,14 @@ class Builder:
             case st.Invoke(procedure=name):
                 return self._invoke(statement, self.theory.procedures[name], depth)
             case st.Test(condition=condition):
-                return rules.Test(span, self._term(condition, depth), condition)
+                return rules.Test(span, self._condition(condition, depth), condition)
             case st.Sequence(parts=parts):
                 return self._sequence(parts, depth)
             case st.If(condition=condition, then=then, otherwise=otherwise):
-                condition_ = self._term(condition, depth)
+                condition_ = self._term(condition, depth, FORMULA)
                 return rules.If(span, condition_, self._rule(then, depth), self._rule(otherwise, depth))
             case st.While(condition=condition, body=body):
-                return iteration.While(span, self._term(condition, depth), self._rule(body, depth))
+                return iteration.While(span, self._term(condition, depth, FORMULA), self._rule(body, depth))
             case st.Choose(branches=branches):
                 return rules.Choose(span, self._rules(branches, depth))
             case st.Pick(binders=binders, where=where, body=body):
@@ -103,13 +103,14 @@ class Builder:
             case st.Interrupts(handlers=handlers):
                 return concurrency.Interrupts(span, tuple(self._handler(handler, depth) for handler in handlers))
             case st.Guard(condition=condition, body=body):
-                return concurrency.Guard(span, self._term(condition, depth), condition, self._rule(body, depth))
+                holds, over = self._condition(condition, depth), self.knowing.refuted(condition, depth)
+                return concurrency.Guard(span, holds, over, condition, self._rule(body, depth))
             case st.Search(body=body):
                 return lookahead.Search(span, self._request(statement, depth), self._rule(body, depth))
             case st.Wait():
                 return rules.WaitRule(span)
             case st.WaitUntil(condition=condition):
-                return rules.WaitUntil(span, self._term(condition, depth), condition)
+                return rules.WaitUntil(span, self._condition(condition, depth), condition)
             case st.WaitTime(seconds=seconds):
                 return timing.WaitTime(span, self._seconds(seconds, depth))
             case st.Within(seconds=seconds, body=body, otherwise=otherwise):
@@ -134,18 +135,20 @@ class Builder:
         body = self._rule(statement.body, depth)
         if statement.limit is None:
             return iteration.Star(statement.span, body)
-        return iteration.BoundedStar(statement.span, self._term(statement.limit, depth), body)
+        return iteration.BoundedStar(statement.span, self._term(statement.limit, depth, "a bound"), body)
 
     def _for(self, statement: st.For, depth: int) -> Rule:
-        values = tuple(binder.variable.type.values for binder in statement.binders)
-        turn = statement.body
+        binders, body = statement.binders, statement.body
         if statement.where is not None:
-            turn = st.If(statement.where, turn, st.Skip(span=statement.span), span=statement.span)
-        return iteration.For(statement.span, values, self._rule(turn, depth + len(values)))
+            body = st.If(statement.where, body, st.Skip(span=statement.span), span=statement.span)
+        turn = self._rule(body, depth + len(binders))
+        if any(binder.within is not None for binder in binders):
+            return iteration.ForEach(statement.span, self._environments(binders, None, depth), turn)
+        return iteration.For(statement.span, tuple(binder.variable.type.values for binder in binders), turn)
 
     def _request(self, statement: st.Search, depth: int) -> Callable[..., lookahead.Request]:
         """A function of a state and an environment that says what a ``search`` asks for."""
-        steps = None if statement.steps is None else self._term(statement.steps, depth)
+        steps = None if statement.steps is None else self._term(statement.steps, depth, "a bound")
         seconds = None if statement.seconds is None else self._seconds(statement.seconds, depth)
         if steps is None and seconds is None:
             request = lookahead.Request(statement.strategy)
@@ -159,10 +162,10 @@ class Builder:
         if isinstance(duration, Fraction):
             constant = float(min(duration, Fraction(LONGEST)))
             return lambda state, env: constant
-        term: Callable[..., int] = self._term(duration, depth)
+        term: Callable[..., Number] = self._term(duration, depth, "a time")
 
         def seconds(state: Any, env: Any) -> float:
-            value: int = term(state, env)
+            value = term(state, env)
             return float(max(0, min(value, LONGEST)))
 
         return seconds
@@ -178,29 +181,35 @@ class Builder:
         self._calls.append(rule)
         return rule
 
-    def _term(self, term: Term, depth: int) -> Callable[..., Any]:
+    def _term(self, term: Term, depth: int, what: str | None = None) -> Callable[..., Any]:
         self._reads(term)
-        return self.compiler.term(term, depth)
+        return self.knowing.settled(term, depth, what)
+
+    def _condition(self, term: Term, depth: int) -> Callable[..., Any]:
+        self._reads(term)
+        return self.knowing.condition(term, depth)
 
     def _environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
-        if where is not None:
-            self._reads(where)
-        return self.compiler.environments(binders, where, depth)
+        for term in (*ranges(binders), *(() if where is None else (where,))):
+            self._reads(term)
+        return self.knowing.environments(binders, where, depth)
 
     def _args(
         self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int
     ) -> Callable[..., tuple[Value, ...]]:
         for arg in args:
             self._reads(arg)
-        texts = self.compiler.arguments(what, parameters, args, environment(depth))
-        return self.compiler.function("s, e", [f"return ({''.join(f'{text}, ' for text in texts)})"])
+        return self.knowing.arguments(what, parameters, args, depth)
 
     def _reads(self, term: Term) -> None:
         self._read |= {part.level for part in subterms(term) if isinstance(part, Variable)}
 
     def _message(self, message: st.Message, depth: int) -> Callable[..., str]:
         """A function of a state and an environment that makes the text of a message."""
-        parts = [part if isinstance(part, str) else self._term(part, depth) for part in message.parts]
+        for part in message.parts:
+            if not isinstance(part, str):
+                self._reads(part)
+        parts = [part if isinstance(part, str) else self.knowing.shown(part, depth) for part in message.parts]
 
         def text(state: Any, env: Any) -> str:
             return "".join(part if isinstance(part, str) else show(part(state, env)) for part in parts)

@@ -10,7 +10,7 @@ from golc.program.frames import Branch, Copy, Guarded, Handler, Token
 from golc.program.nodes import Node
 from golc.program.rules import Env, Evaluate, Found, Rule
 from golc.program.walks import Proof, Walk
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.terms import Term
 
 if TYPE_CHECKING:
@@ -99,21 +99,25 @@ class Branching(Rule):
 class Guard(Rule):
     """*gexec(φ, δ)* as written; its nodes are of the rule ``guarded``."""
 
-    def __init__(self, span: Span, condition: Evaluate, term: Term, body: Rule) -> None:
+    def __init__(self, span: Span, condition: Evaluate, over: Evaluate, term: Term, body: Rule) -> None:
         super().__init__(span)
         self.body = body
-        self.guarded = GuardedBlock(span, condition, term)
+        self.guarded = GuardedBlock(span, condition, over, term)
 
     def instance(self, program: Program, env: Env) -> Node:
         return self.guarded.around(program, env, program.at(self.body, env))
 
 
 class GuardedBlock(Rule):
-    """A step of the block only while the condition holds; over when it does not. Operands environment and block."""
+    """A step of the block only while the condition holds; over when it does not. Operands environment and block.
 
-    def __init__(self, span: Span, condition: Evaluate, term: Term) -> None:
+    ``over``: whether the condition is false, which is more than not being known to be true.
+    """
+
+    def __init__(self, span: Span, condition: Evaluate, over: Evaluate, term: Term) -> None:
         super().__init__(span)
         self.condition = condition
+        self.over = over
         self.term = term
 
     def around(self, program: Program, env: Env, block: Node) -> Node:
@@ -130,7 +134,7 @@ class GuardedBlock(Rule):
 
     def final(self, proof: Proof, node: Node) -> bool:
         env, block = node.operands
-        if not self.condition(proof.state, env):
+        if self.over(proof.state, env):
             return True
         proof.require(block)
         return False

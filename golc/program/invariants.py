@@ -8,7 +8,7 @@ from typing import Any
 from golc.diagnostics import Code, Diagnostic, Label, ProgramError, Span
 from golc.program.blame import false_parts
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import Definition
 from golc.theory.types import show
@@ -23,7 +23,7 @@ class Invariants:
         with deep_recursion():
             for name in dynamics.theory.invariants:
                 invariant = dynamics.theory.definitions[name]
-                self._compiled.append((invariant, dynamics.compiler.term(invariant.body, 0)))
+                self._compiled.append((invariant, dynamics.knowing.condition(invariant.body, 0)))
 
     def check(self, state: State, step: str | None, span: Span) -> None:
         """Raise ``ProgramError`` if an invariant is false in the state to which ``step``, from ``span``, has led.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from math import prod
 from typing import TYPE_CHECKING
 
@@ -136,4 +136,29 @@ class Turns(Rule):
 
     def final(self, proof: Proof, node: Node) -> bool:
         proof.require_all(self._parts(proof.machine.program, node))
+        return False
+
+
+class ForEach(Rule):
+    """The block once for each element of collections, which are evaluated with the first step of the first turn."""
+
+    def __init__(self, span: Span, environments: Callable[..., Iterator[Env]], turn: Rule) -> None:
+        super().__init__(span)
+        self.environments = environments
+        self.turn = turn
+
+    def _turns(self, walk: Walk | Proof, node: Node) -> Node:
+        """All turns in sequence."""
+        program = walk.machine.program
+        turns = program.nil
+        for env in reversed([*self.environments(walk.state, node.operands)]):
+            turns = program.sequence(program.at(self.turn, env), turns)
+        return turns
+
+    def trans(self, walk: Walk, node: Node) -> Found:
+        walk.push(self._turns(walk, node))
+        return None
+
+    def final(self, proof: Proof, node: Node) -> bool:
+        proof.require(self._turns(proof, node))
         return False

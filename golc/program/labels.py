@@ -61,7 +61,22 @@ class Abort:
     span: Span = field(compare=False, repr=False)
 
 
+@dataclass(frozen=True, slots=True)
+class Expect:
+    """In look-ahead only: the expected exogenous action that ends the wait at ``span`` happens."""
+
+    action: str
+    args: tuple[Value, ...]
+    span: Span = field(compare=False, repr=False)
+
+    def __str__(self) -> str:
+        return f"… {show_call(self.action, self.args)}"
+
+
 Label: TypeAlias = Silent | Act | Say | Wait | Clock | Abort
+
+Foreseen: TypeAlias = Label | Expect
+"""The label of a step that look-ahead has taken."""
 
 
 class Transition(NamedTuple):

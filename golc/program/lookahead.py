@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from golc.diagnostics import Span
-from golc.program.labels import Act, Label
 from golc.program.nodes import Node
 from golc.program.rules import Env, Found, Rule
 from golc.program.walks import Proof, Walk
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.statements import Strategy
 
 
@@ -23,11 +22,9 @@ class Request:
     steps: int | None = None
     seconds: float | None = None
 
-    def after(self, labels: Iterable[Label]) -> Request:
-        """What is wanted of the rest, when these steps have been done: they count."""
-        if self.steps is None:
-            return self
-        return replace(self, steps=self.steps - sum(isinstance(label, Act) for label in labels))
+    def after(self, actions: int) -> Request:
+        """What is wanted of the rest, when so many actions have been done: they count."""
+        return self if self.steps is None else replace(self, steps=self.steps - actions)
 
 
 ANY = Request()
@@ -51,7 +48,7 @@ class Search(Rule):
         if walk.machine.lookahead:
             walk.push(body)
             return None
-        return walk.machine.begin_search(self, body, walk.state, self.how(walk.state, node.operands))
+        return walk.machine.searches.begin(self, body, walk.state, self.how(walk.state, node.operands))
 
     def final(self, proof: Proof, node: Node) -> bool:
         body = proof.machine.program.at(self.body, node.operands)
@@ -66,7 +63,7 @@ class Following(Rule):
         if walk.machine.lookahead:
             walk.push(path.programs[index])
             return None
-        return walk.machine.follow(self, path, index, walk.state)
+        return walk.machine.searches.follow(self, path, index, walk.state)
 
     def final(self, proof: Proof, node: Node) -> bool:
         path, index = node.operands

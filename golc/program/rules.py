@@ -21,7 +21,7 @@ from golc.program.frames import Then
 from golc.program.labels import Abort, Act, Label, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.program.walks import Proof, Walk
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.terms import Term
 from golc.theory.types import Value
 
@@ -148,21 +148,21 @@ class AbortRule(Step):
 
 
 class WaitRule(Step):
-    """Online a step that ends with the next exogenous action; a dead end of look-ahead."""
+    """A step that ends with the next exogenous action; a dead end of look-ahead where none is expected."""
 
     def __init__(self, span: Span) -> None:
         super().__init__(span)
         self.label = Wait(span)
 
     def trans(self, walk: Walk, node: Node) -> Found:
-        if walk.machine.lookahead:
-            walk.machine.blame(self, "waits")
-            return None
-        return self.label, walk.machine.program.nil
+        if walk.machine.can_wait(walk.state):
+            return self.label, walk.machine.program.nil
+        walk.machine.blame(self, "waits")
+        return None
 
 
 class WaitUntil(Rule):
-    """*while not φ: wait*; in look-ahead *φ?*."""
+    """*while not φ: wait*; in look-ahead *(while not φ: wait); φ?*."""
 
     def __init__(self, span: Span, condition: Evaluate, term: Term) -> None:
         super().__init__(span)
@@ -173,13 +173,12 @@ class WaitUntil(Rule):
 
     def trans(self, walk: Walk, node: Node) -> Found:
         machine = walk.machine
-        holds = self.condition(walk.state, node.operands)
-        if machine.lookahead:
-            if holds:
-                return self.test, machine.program.nil
-            machine.blame(self, "false", self.term, node.operands)
-            return None
-        return None if holds else (self.wait, node)
+        if self.condition(walk.state, node.operands):
+            return (self.test, machine.program.nil) if machine.lookahead else None
+        if machine.can_wait(walk.state):
+            return self.wait, node
+        machine.blame(self, "waits for", self.term, node.operands)
+        return None
 
     def final(self, proof: Proof, node: Node) -> bool:
         return not proof.machine.lookahead and bool(self.condition(proof.state, node.operands))

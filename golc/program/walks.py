@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from golc.program.frames import Frame
 from golc.program.labels import Label
 from golc.program.nodes import Node
-from golc.situation.layout import State
+from golc.situation.worlds import State
+from golc.theory.errors import UndecidedError
 
 if TYPE_CHECKING:
     from golc.program.rules import Rule
@@ -40,7 +41,13 @@ class Walk:
         stack = self.stack
         while stack:
             rule, node, self.outer, self.entered = stack.pop()
-            found = rule.trans(self, node)
+            try:
+                found = rule.trans(self, node)
+            except UndecidedError as error:
+                if not self.machine.lookahead:
+                    raise
+                self.machine.blame(rule, "undecided", error)
+                continue
             if found is not None:
                 outer = self.outer
                 if outer is not None and outer.token is not None:
@@ -77,7 +84,13 @@ class Proof:
         stack = self.stack
         while stack:
             node, self.rest, self.entered = stack.pop()
-            if node.rule.final(self, node):
+            try:
+                final = node.rule.final(self, node)
+            except UndecidedError:
+                if not self.machine.lookahead:
+                    raise
+                continue
+            if final:
                 if self.rest is None:
                     return True
                 stack.append(self.rest)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from golc.diagnostics import Code, Diagnostic, ProgramError, Span
 from golc.program.blame import false_parts, valued
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.scenarios import ExpectActions, Expectation, ExpectCount, ExpectFormula
 from golc.theory.types import Value, show_call
 

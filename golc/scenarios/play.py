@@ -13,11 +13,13 @@ from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.invariants import Invariants
 from golc.program.labels import Abort, Act, Say, Wait
 from golc.scenarios.expect import Judge, failed
-from golc.situation.layout import State
+from golc.situation.layout import World
+from golc.situation.worlds import ActualWorld, State, keep, survey
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.scenarios import Assignment, Assumption, Events, GroundCall, Scenario
 from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory
+from golc.theory.types import show
 
 LONGEST = 100_000
 """Actions and events after which a scenario is taken not to end."""
@@ -60,7 +62,9 @@ class _Play:
         self.invariants = Invariants(self.dynamics)
         self._now = 0.0
         self.machine.now = lambda: self._now
-        self.state = self._initial()
+        self.state: State
+        self.world: World
+        self._begin()
         self._until = None if scenario.until is None else self._formula(scenario.until)
         self._lines = [
             (line, self._formula(line.trigger) if isinstance(line.trigger, Term) else None) for line in scenario.events
@@ -71,27 +75,40 @@ class _Play:
         """Raises ``ProgramError`` for the first difference."""
         self._after_actions()
         self._loop()
-        self.judge.at_the_end(self.state)
+        self.judge.at_the_end(self.now)
 
     def _formula(self, term: Term) -> Callable[..., Any]:
         with deep_recursion():
             return self.dynamics.compiler.term(term, 0)
 
-    def _initial(self) -> State:
-        values = list(self.dynamics.initial())
+    def _begin(self) -> None:
+        """The initial state, and the world that is real: the first possible one of which everything given is true."""
+        places = self.dynamics.layout.places
+        values = [given for given in self.scenario.givens if isinstance(given, Assignment)]
+        self.state = self.dynamics.initial({places[each.fluent].slot(each.args): each.value for each in values})
+        real = self.state
         for given in self.scenario.givens:
-            if isinstance(given, Assignment):
-                values[self.dynamics.layout.places[given.fluent].slot(given.args)] = given.value
-        state = tuple(values)
-        for given in self.scenario.givens:
-            if isinstance(given, Assumption) and (false := false_parts(self.dynamics, state, given.condition)):
-                raise failed("this is not so in the initial state", given.span, valued(false[0]))
-        self.invariants.check(state, None, self.scenario.span)
-        return state
+            if isinstance(given, Assumption):
+                real = self._narrowed(real, given)
+        self.world = self.dynamics.realize(real)
+        self.invariants.check(self.now, None, self.scenario.span)
+
+    def _narrowed(self, real: State, given: Assumption) -> State:
+        holds = self._formula(given.condition)
+        cases = [case for case, found in survey(real, lambda world: holds(world, ())) if found]
+        if not cases:
+            why = false_parts(self.dynamics, real, given.condition)[0]
+            raise failed("this is not so in the initial state", given.span, valued(why))
+        return keep(real, cases)
+
+    @property
+    def now(self) -> World:
+        """The world as it is, in which formulas may ask what the agent knows, too."""
+        return self.world if self.world == self.state else ActualWorld.of(self.world, self.state)
 
     def _loop(self) -> None:
         quiet = 0
-        while self._until is None or not self._until(self.state, ()):
+        while self._until is None or not self._until(self.now, ()):
             choice = self.machine.decide(self.node, self.state)
             if choice is None:
                 if self.machine.final(self.node, self.state):
@@ -137,7 +154,7 @@ class _Play:
         """The program has come to rest, which must not be before ``until`` holds."""
         until = self.scenario.until
         if until is not None:
-            parts = false_parts(self.dynamics, self.state, until)
+            parts = false_parts(self.dynamics, self.now, until)
             raise failed(f"`until` never holds: {why}", until.span, valued(parts[0]) if parts else "")
 
     def _blocked(self) -> ProgramError:
@@ -147,10 +164,15 @@ class _Play:
         return ProgramError(Diagnostic(Code.SCENARIO, message, self.scenario.span, labels=labels))
 
     def _act(self, act: Act) -> None:
-        self.state = self.dynamics.progress(self.state, act.action, act.args)
+        action, args = act.action, act.args
+        self.state = self.dynamics.progress(self.state, action, args)
+        self.world = self.dynamics.realize(self.dynamics.progress(self.world, action, args))
+        results = self.dynamics.sense(self.now, action, args)
+        self.state, _ = self.dynamics.assimilate(self.state, action, args, results)
         self.played.actions += 1
-        self.played.trace.append(f"{self.played.actions:>5} {act}")
-        self.invariants.check(self.state, str(act), act.span)
+        sensed = f": {', '.join(map(show, results))}" if results else ""
+        self.played.trace.append(f"{self.played.actions:>5} {act}{sensed}")
+        self.invariants.check(self.now, str(act), act.span)
         self.judge.happened(act.action, act.args)
         self._end_at_last(act.span)
         self._after_actions()
@@ -165,7 +187,7 @@ class _Play:
         """The program can only wait: the first line that has something for this moment happens; whether one has."""
         for index, (line, condition) in enumerate(self._lines):
             if condition is not None:
-                happens = bool(condition(self.state, ()))
+                happens = bool(condition(self.now, ()))
             else:
                 happens = line.trigger is None and index not in self._waited
             if happens:
@@ -179,15 +201,17 @@ class _Play:
             self._event(event)
 
     def _event(self, event: GroundCall) -> None:
-        if not self.dynamics.possible(self.state, event.name, event.args):
-            why = impossible(self.dynamics, self.state, event.name, event.args)
+        if not self.dynamics.possible(self.now, event.name, event.args):
+            why = impossible(self.dynamics, self.now, event.name, event.args)
             message = f"`{event}` cannot happen here"
             labels = (Label(why.span, valued(why)),)
             raise ProgramError(Diagnostic(Code.SCENARIO, message, event.span, labels=labels))
-        self.state = self.dynamics.progress(self.state, event.name, event.args)
+        before = self.dynamics.witness(self.state, event.name, event.args)
+        self.state = self.dynamics.progress(self.state if before is None else before, event.name, event.args)
+        self.world = self.dynamics.realize(self.dynamics.progress(self.world, event.name, event.args))
         self.played.events += 1
         self.played.trace.append(f"      <- {event}")
-        self.invariants.check(self.state, str(event), event.span)
+        self.invariants.check(self.now, str(event), event.span)
         self.judge.happened(event.name, event.args, exogenous=True)
         self._end_at_last(event.span)
 

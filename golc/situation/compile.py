@@ -7,17 +7,25 @@ defines. Small quantifiers are written out, so that most ground fluents become p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from itertools import product
 from math import prod
 from typing import Any, NamedTuple
 
-from golc.situation import guards
+from golc.situation import collections, guards
+from golc.situation.collections import known_value, listed
+from golc.situation.happened import before
 from golc.situation.layout import Layout, Place
+from golc.situation.worlds import ASK
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
+    Before,
     Binder,
+    Choice,
+    Comprehension,
     DefinedTerm,
+    Display,
+    Epistemic,
     FluentTerm,
     Literal,
     Membership,
@@ -27,11 +35,15 @@ from golc.theory.terms import (
     Quantified,
     StaticTerm,
     Term,
+    Text,
     Variable,
     subterms,
 )
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
-from golc.theory.types import Interval, Type, Value
+from golc.theory.types import Collection, Interval, Type, Value, number
+
+FORMULA = "a formula"
+"""What a formula is called where it is `none`."""
 
 DEEPEST = 24
 """Expressions nested deeper go into functions of their own: CPython refuses more than about 200 nested brackets."""
@@ -55,8 +67,9 @@ INFIX = {
 }
 CALLS = {Operator.ABSOLUTE: "abs", Operator.MINIMUM: "min", Operator.MAXIMUM: "max"}
 ORDERED = {Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL}
-EXACT = {Operator.EQUAL, Operator.DIFFERENT, Operator.IFF, Operator.AND, Operator.OR, Operator.NOT, Operator.IMPLIES}
-"""Operators whose operands may be ``none`` or are truth values."""
+EXACT = {Operator.EQUAL, Operator.DIFFERENT}
+"""Operators whose operands may be ``none``."""
+LOGICAL = {Operator.IFF, Operator.AND, Operator.OR, Operator.NOT, Operator.IMPLIES}
 
 
 class Cell(NamedTuple):
@@ -78,6 +91,7 @@ class Compiler:
         self.theory = theory
         self.layout = layout
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
+        self.uncertain = leaves_open(theory)
         self._made: dict[tuple[str, str], str] = {}
         self._depth = guards.Depth()
 
@@ -86,30 +100,40 @@ class Compiler:
         function: Callable[..., Any] = self.namespace[self._define(parameters, lines)]
         return function
 
-    def term(self, term: Term, depth: int) -> Callable[..., Any]:
-        """A function of a state and an environment of ``depth`` variables that evaluates a term."""
-        return self.function("s, e", [f"return {self.expression(term, environment(depth))}"])
+    def term(self, term: Term, depth: int, what: str | None = None) -> Callable[..., Any]:
+        """A function of a state and an environment of ``depth`` variables that evaluates a term.
+
+        If the value must not be ``none``, ``what`` says what the term is.
+        """
+        cells = environment(depth)
+        text = self.expression(term, cells) if what is None else self.some(term, cells, 0, what)
+        return self.function("s, e", [f"return {text}"])
+
+    def argument_values(
+        self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], depth: int
+    ) -> Callable[..., Any]:
+        """A function of a state and an environment that evaluates the arguments of something."""
+        texts = self.arguments(what, parameters, args, environment(depth))
+        return self.function("s, e", [f"return ({''.join(f'{text}, ' for text in texts)})"])
 
     def environments(self, binders: tuple[Binder, ...], where: Term | None, depth: int) -> Callable[..., Any]:
         """A function of a state and an environment that yields the longer ones which binders and ``where`` make."""
         if not binders:
-            condition = "True" if where is None else self.expression(where, environment(depth))
+            condition = "True" if where is None else self.formula(where, environment(depth))
             return self.function("s, e", [f"return iter((e,) if {condition} else ())"])
         cells, clauses = self.loops(binders, where, environment(depth))
         added = "".join(f"{cell.text}, " for cell in cells[depth:])
         return self.function("s, e", [f"return (e + ({added}) {clauses})"])
 
-    def loops(
-        self, binders: tuple[Binder, ...], where: Term | None, cells: Cells, scope: str = ""
-    ) -> tuple[Cells, str]:
+    def loops(self, binders: tuple[Binder, ...], where: Term | None, cells: Cells, depth: int = 0) -> tuple[Cells, str]:
         """``for … if …`` of a comprehension, and the cells inside it."""
         clauses = []
         for binder in binders:
             name = f"v{len(cells)}"
-            clauses.append(f"for {name} in {self.bind('values', binder.variable.type.values)}")
+            clauses.append(f"for {name} in {collections.run_through(self, binder, cells, depth)}")
             cells = (*cells, Cell(name))
         if where is not None:
-            clauses.append(f"if {self.expression(where, cells)}")
+            clauses.append(f"if {self.formula(where, cells, depth)}")
         return cells, " ".join(clauses)
 
     def bind(self, prefix: str, value: object) -> str:
@@ -124,7 +148,7 @@ class Compiler:
             return self._hoisted(term, cells)
         match term:
             case Literal(value=value):
-                return self._constant(value)
+                return self.constant(value)
             case Variable(level=level):
                 return cells[level].text
             case FluentTerm(fluent=name, args=args):
@@ -141,8 +165,18 @@ class Compiler:
                 return self._membership(self.expression(element, cells, depth + 1), element.type, within)
             case Quantified():
                 return self._quantified(term, cells, depth + 1)
+            case Operation(op=op) if op in collections.OPERATORS:
+                return collections.operation(self, term, cells, depth + 1)
             case Operation():
                 return self._operation(term, cells, depth + 1)
+            case Display() | Comprehension() | Text():
+                return collections.made(self, term, cells, depth + 1)
+            case Epistemic(kind=kind, body=body):
+                function, names = self._function_of(body, cells)
+                return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
+            case Before(body=body):
+                function, names = self._function_of(body, cells)
+                return f"{self.bind('before', before)}({', '.join([function, *names])})"
             case _:
                 raise AssertionError(term)
 
@@ -150,7 +184,7 @@ class Compiler:
         """An expression for the slot of a fluent's arguments."""
         constant, parts = place.base, []
         for index, (arg, type_, stride) in enumerate(zip(args, place.types, place.strides, strict=True)):
-            known, value = _known(arg, cells)
+            known, value = known_value(arg, cells)
             if known and value in type_:
                 constant += stride * place.positions[index][value]
                 continue
@@ -172,7 +206,7 @@ class Compiler:
     ) -> str:
         """An expression for a term that fails unless its value belongs to a type."""
         text = self.expression(term, cells, depth)
-        known, value = _known(term, cells)
+        known, value = known_value(term, cells)
         if fits(term.type, type_) or (known and value in type_):
             return text
         return f"{self.bind('check', guards.check(type_, failure))}({text})"
@@ -191,7 +225,7 @@ class Compiler:
         action = self.theory.actions[name]
 
         def body(cells: Cells) -> str:
-            return " and ".join(self.expression(condition, cells) for condition in action.preconditions) or "True"
+            return " and ".join(self.formula(condition, cells) for condition in action.preconditions) or "True"
 
         return self._once("poss", name, len(action.parameters), body)
 
@@ -214,11 +248,16 @@ class Compiler:
         return name
 
     def _hoisted(self, term: Term, cells: Cells) -> str:
-        names = ["s", *dict.fromkeys(cell.text.partition("[")[0] for cell in cells if not cell.known)]
-        parameters = ", ".join(names)
-        return f"{self._define(parameters, [f'return {self.expression(term, cells)}'])}({parameters})"
+        function, names = self._function_of(term, cells)
+        return f"{function}({', '.join(names)})"
 
-    def _constant(self, value: Value) -> str:
+    def _function_of(self, term: Term, cells: Cells) -> tuple[str, list[str]]:
+        """The name of a function that evaluates a term, and the names of what it is to be given."""
+        names = ["s", *dict.fromkeys(cell.text.partition("[")[0] for cell in cells if not cell.known)]
+        return self._define(", ".join(names), [f"return {self.expression(term, cells)}"]), names
+
+    def constant(self, value: Value) -> str:
+        """An expression for a value."""
         return repr(value) if value is None or isinstance(value, int | str) else self.bind("constant", value)
 
     def _call(
@@ -257,21 +296,23 @@ class Compiler:
     def _membership(self, element: str, type_: Type, within: Type) -> str:
         if isinstance(within, Interval) and type_.kinds == {"int"}:
             return f"({within.low} <= {element} <= {within.high})"
-        listed = not isinstance(strip_optional(within), Interval)  # an interval may be too long to list
+        listed = within.finite and not isinstance(strip_optional(within), Interval)  # which may be too long to list
         return f"({element} in {self.bind('set', frozenset(within.values) if listed else within)})"
 
     def _operation(self, term: Operation, cells: Cells, depth: int) -> str:
         op, args = term.op, term.args
         if op in ORDERED and term.order is not None:
             order = self.bind("order", {value: index for index, value in enumerate(term.order)})
-            texts = [f"{order}[{self._some(arg, cells, depth)}]" for arg in args]
+            texts = [f"{order}[{self.some(arg, cells, depth)}]" for arg in args]
         elif op in EXACT:
             texts = [self.expression(arg, cells, depth) for arg in args]
+        elif op in LOGICAL:
+            texts = [self.formula(arg, cells, depth) for arg in args]
         elif op is Operator.CONDITIONAL:
-            then, condition, otherwise = (self.expression(arg, cells, depth) for arg in args)
-            return f"({then} if {condition} else {otherwise})"
+            then, otherwise = self.expression(args[0], cells, depth), self.expression(args[2], cells, depth)
+            return f"({then} if {self.formula(args[1], cells, depth)} else {otherwise})"
         else:
-            texts = [self._some(arg, cells, depth) for arg in args]
+            texts = [self.some(arg, cells, depth) for arg in args]
         match op:
             case Operator.NOT:
                 return f"(not {texts[0]})"
@@ -284,25 +325,40 @@ class Compiler:
             case _ if op in CALLS:
                 return f"{CALLS[op]}({', '.join(texts)})"
             case _:
-                return f"({f' {INFIX[op]} '.join(texts)})"
+                return self._number(f"({f' {INFIX[op]} '.join(texts)})", term)
+
+    def _number(self, text: str, term: Term) -> str:
+        """A number in its only form, which operations on reals do not always give."""
+        return f"{self.bind('number', number)}({text})" if "real" in term.type.kinds else text
 
     def _quotient(self, term: Operation, texts: list[str], cells: Cells) -> str:
-        known, value = _known(term.args[1], cells)
+        known, value = known_value(term.args[1], cells)
         divisor = texts[1]
         if not (known and value):
             divisor = f"{self.bind('divisor', guards.divisor(term))}({divisor})"
-        return f"({texts[0]} {term.op.value} {divisor})"
+        return self._number(f"({texts[0]} {term.op.value} {divisor})", term)
 
-    def _some(self, term: Term, cells: Cells, depth: int) -> str:
+    def some(self, term: Term, cells: Cells, depth: int, what: str = "an operand") -> str:
+        """An expression for a term that fails if its value is ``none``; ``what`` says what the term is."""
         text = self.expression(term, cells, depth)
-        return f"{self.bind('some', guards.some(term))}({text})" if "none" in term.type.kinds else text
+        return f"{self.bind('some', guards.some(term, what))}({text})" if "none" in term.type.kinds else text
+
+    def formula(self, term: Term, cells: Cells, depth: int = 0) -> str:
+        """An expression for a formula, which must not be ``none``."""
+        return self.some(term, cells, depth, FORMULA)
 
     def _quantified(self, term: Quantified, cells: Cells, depth: int) -> str:
-        bindings = prod(len(binder.variable.type.values) for binder in term.binders)
-        if bindings * sum(1 for _ in subterms(term)) <= LARGEST_UNROLLED and term.kind in ("exists", "forall"):
-            return self._unrolled(term, cells, depth)
-        inner, clauses = self.loops(term.binders, term.where, cells)
-        body = self.expression(term.body, inner, depth)
+        if term.kind in ("exists", "forall"):
+            ranges = [listed(binder, cells) for binder in term.binders]
+            known = [values for values in ranges if values is not None]
+            bindings = prod(map(len, known))
+            if len(known) == len(ranges) and bindings * sum(1 for _ in subterms(term)) <= LARGEST_UNROLLED:
+                return self._unrolled(term, known, cells, depth)
+        inner, clauses = self.loops(term.binders, term.where, cells, depth)
+        if term.kind in ("exists", "forall", "count"):
+            body = self.formula(term.body, inner, depth)
+        else:
+            body = self.some(term.body, inner, depth)
         match term.kind:
             case "exists":
                 return f"any({body} {clauses})"
@@ -311,17 +367,17 @@ class Compiler:
             case "count":
                 return f"sum(1 {clauses} {'if' if term.where is None else 'and'} {body})"
             case "sum":
-                return f"sum({body} {clauses})"
+                return self._number(f"sum({body} {clauses})", term)
             case _:
                 return f"{self.bind('extremum', guards.extremum(term))}([{body} {clauses}])"
 
-    def _unrolled(self, term: Quantified, cells: Cells, depth: int) -> str:
+    def _unrolled(self, term: Quantified, ranges: list[Sequence[Value]], cells: Cells, depth: int) -> str:
         cases = []
-        for values in product(*(binder.variable.type.values for binder in term.binders)):
-            inner = (*cells, *(Cell(self._constant(value), True, value) for value in values))
-            body = self.expression(term.body, inner, depth)
+        for values in product(*ranges):
+            inner = (*cells, *(Cell(self.constant(value), True, value) for value in values))
+            body = self.formula(term.body, inner, depth)
             if term.where is not None:
-                where = self.expression(term.where, inner, depth)
+                where = self.formula(term.where, inner, depth)
                 body = f"({where} and {body})" if term.kind == "exists" else f"(not {where} or {body})"
             cases.append(body)
         return f"({' or '.join(cases) or False})" if term.kind == "exists" else f"({' and '.join(cases) or True})"
@@ -341,14 +397,15 @@ def fits(inner: Type, outer: Type) -> bool:
     """Whether the types alone prove that every value of the one belongs to the other."""
     if inner.finite:
         return includes(outer, inner)
-    return not outer.finite and inner.kinds <= outer.kinds
+    if not inner.kinds <= outer.kinds or outer.finite:
+        return False
+    part, whole = strip_optional(inner), strip_optional(outer)
+    return not isinstance(part, Collection) or not isinstance(whole, Collection) or fits(part.element, whole.element)
 
 
-def _known(term: Term, cells: Cells) -> tuple[bool, Value]:
-    match term:
-        case Literal(value=value):
-            return True, value
-        case Variable(level=level):
-            return cells[level].known, cells[level].value
-        case _:
-            return False, None
+def leaves_open(theory: BasicActionTheory) -> bool:
+    """Whether there may ever be several possible worlds."""
+    effects = (effect for action in theory.actions.values() for effect in action.effects)
+    return any(isinstance(fluent.initial, Choice) for fluent in theory.fluents.values()) or any(
+        isinstance(effect.value, Choice) for effect in effects
+    )

@@ -6,20 +6,26 @@ so that no answer here gets slower with time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from types import MappingProxyType
+from typing import Any, TypeAlias, cast
 
 from golc.diagnostics import Span
+from golc.situation.beginning import initial_state
+from golc.situation.branching import Branching
 from golc.situation.compile import Cells, Compiler, fits, variables
 from golc.situation.interpret import Interpreter
-from golc.situation.layout import Layout, State
+from golc.situation.knowing import Knowing, placed
+from golc.situation.layout import Layout, World
+from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
 from golc.theory.fitting import describe
+from golc.theory.order import sort_key
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
-from golc.theory.types import Value, show, show_call
+from golc.theory.types import Number, Unknown, Value, show, show_call
 
 Args: TypeAlias = tuple[Value, ...]
 
@@ -59,18 +65,20 @@ class Dynamics:
         self.layout = Layout(theory)
         self.interpreter = Interpreter(theory, self.layout)
         self.compiler = Compiler(theory, self.layout)
+        self.knowing = Knowing(theory, self.compiler, self.interpreter)
+        self._possible_in = _Lazy(self._compile_possible_in)
         self._possible = _Lazy(self._compile_possible)
         self._progress = _Lazy(self._compile_progress)
         self._sense = _Lazy(self._compile_sense)
         self._cost = _Lazy(self._compile_cost)
 
-    def initial(self) -> State:
-        """The initial state."""
+    def initial(self, given: Mapping[int, Value] = MappingProxyType({})) -> State:
+        """The initial state; ``given`` are values of slots that replace those of the theory."""
         with deep_recursion(EVALUATION):
-            return self.interpreter.initial()
+            return initial_state(self.interpreter, given)
 
     def possible(self, state: State, action: str, args: Args) -> bool:
-        """Whether the action's preconditions hold."""
+        """Whether the action's preconditions are known to hold."""
         return bool(self._possible[action](state, *args))
 
     def possible_function(self, action: str) -> Callable[..., bool]:
@@ -82,53 +90,105 @@ class Dynamics:
         after: State = self._progress[action](state, *args)
         return after
 
-    def cost(self, state: State, action: str, args: Args) -> int:
-        """What the action costs in the situation before it: at least 0; 1 if the theory does not say."""
-        cost: int = self._cost[action](state, *args)
-        return cost
+    def cost(self, state: State, action: str, args: Args) -> Number:
+        """What the action costs in the situation before it: at least 0; 1 if the theory does not say.
+
+        Where that is not known, the most that it may cost.
+        """
+        function = self._cost[action]
+        costs: Iterator[tuple[Assignment, Number]] = survey(state, lambda world: function(world, *args))
+        return max(cost for _, cost in costs)
 
     def outcomes(self, state: State, action: str, args: Args) -> list[Outcome]:
         """What the sensing of an action may answer in a state (the one after its effects), each with the state then.
 
         In the order of the possible worlds; one outcome if the agent knows what will be sensed.
         """
-        return [Outcome(self.sense(state, action, args), state)]
+        cases: dict[tuple[Value, ...], list[Assignment]] = {}
+        with placed(self.theory.actions[action].senses):
+            for case, results in self._sensed(state, action, args):
+                cases.setdefault(results, []).append(case)
+            return [Outcome(results, keep(state, kept)) for results, kept in cases.items()]
 
-    def sense(self, state: State, action: str, args: Args) -> tuple[Value, ...]:
-        """What the action's sensed terms are in a state (the one after its effects), in order."""
-        return tuple(self._sense[action](state, *args))
+    def sense(self, world: World, action: str, args: Args) -> tuple[Value, ...]:
+        """What the action's sensed terms are in a world (the one after its effects), in order."""
+        return tuple(self._sense[action](world, *args))
 
     def assimilate(
         self, state: State, action: str, args: Args, results: Sequence[Value]
     ) -> tuple[State, list[Surprise]]:
-        """Put sensing results into the state after the action's effects: a sensed fluent takes the value."""
-        surprises = []
+        """Put sensing results into the state after the action's effects.
+
+        The worlds that agree with them remain. If there is none, a sensed fluent takes the value in every world.
+        """
         senses = self.theory.actions[action].senses
-        for term, expected, sensed in zip(senses, self.sense(state, action, args), results, strict=True):
-            if sensed == expected:
+        with placed(senses):
+            kept = [case for case, sensed in self._sensed(state, action, args) if sensed == tuple(results)]
+            if kept:
+                return keep(state, kept), []
+        surprises = []
+        for number, (term, sensed) in enumerate(zip(senses, results, strict=True)):
+            cases = [(case, answer[number]) for case, answer in self._sensed(state, action, args)]
+            kept = [case for case, answer in cases if answer == sensed]
+            if kept:
+                state = keep(state, kept)
                 continue
+            expected = agreed(answer for _, answer in cases)
             state, name = self._put(state, term, args, sensed)
             surprises.append(Surprise(action, sensed, expected, name, term.span))
         return state, surprises
 
+    def witness(self, state: State, action: str, args: Args) -> State | None:
+        """What is possible when an exogenous action has occurred, before its effects: the worlds in which it could.
+
+        None if it could in no world.
+        """
+        function = self._possible_in[action]
+        with placed(self.theory.actions[action].preconditions):
+            cases = survey(state, lambda world: function(world, *args))
+            kept = [case for case, could in cases if could]
+            return keep(state, kept) if kept else None
+
+    def realize(self, state: State, choose: Callable[[int], int] = lambda count: 0) -> World:
+        """One of the possible worlds; ``choose`` takes one of so many alternatives, by default the first."""
+        if not isinstance(state, Worlds):
+            return state
+        return state.world([factor.rows[choose(len(factor.rows))] for factor in state.factors])
+
+    def _sensed(self, state: State, action: str, args: Args) -> Iterator[tuple[Assignment, tuple[Value, ...]]]:
+        function = self._sense[action]
+        return survey(state, lambda world: function(world, *args))
+
     def _put(self, state: State, term: Term, args: Args, value: Value) -> tuple[State, str | None]:
+        """Give a sensed fluent a value in every world, if it is one and its arguments are known."""
         if not isinstance(term, FluentTerm):
             return state, None
         place = self.layout.places[term.fluent]
-        of = tuple(self.interpreter.evaluate(arg, state, args) for arg in term.args)
+        of = tuple(self.knowing.evaluate(arg, state, args) for arg in term.args)
+        if any(isinstance(arg, Unknown) for arg in of):
+            return state, None
         if value not in place.fluent.type:
             raise errors.value_outside(term.span, show_call(term.fluent, of), value, place.fluent.type)
-        slot = place.slot(of)
-        return (*state[:slot], value, *state[slot + 1 :]), show_call(term.fluent, of)
+        return with_value(state, place.slot(of), value), show_call(term.fluent, of)
 
     def value(self, state: State, fluent: str, args: Args = ()) -> Value:
-        """The value of a ground fluent."""
-        return state[self.layout.places[fluent].slot(args)]
+        """The value of a ground fluent; an ``Unknown`` if the worlds disagree."""
+        return self._in_order(fluent, shown(state)[self.layout.places[fluent].slot(args)])
+
+    def values(self, state: State) -> Iterator[tuple[tuple[str, Args], Value]]:
+        """Each ground fluent, as name and arguments, with its value or an ``Unknown``."""
+        for ground, value in zip(self.layout.ground_fluents, shown(state), strict=True):
+            yield ground, self._in_order(ground[0], value)
+
+    def _in_order(self, fluent: str, value: Value) -> Value:
+        """Possible values in the order of the type: what is not known looks the same, however that came about."""
+        if not isinstance(value, Unknown):
+            return value
+        return Unknown(tuple(sorted(cast(Iterable[Any], value.values), key=sort_key(self.theory.fluents[fluent].type))))
 
     def show(self, state: State) -> dict[str, Value]:
-        """Each ground fluent as text with its value."""
-        names = (show_call(name, args) for name, args in self.layout.ground_fluents)
-        return dict(zip(names, state, strict=True))
+        """Each ground fluent as text with its value or an ``Unknown``."""
+        return {show_call(*name): value for name, value in self.values(state)}
 
     def misfit(self, action: str, args: Args) -> str | None:
         """What is wrong with the arguments of a ground action, or none: their number or their types."""
@@ -142,9 +202,12 @@ class Dynamics:
                 return f"{show(arg)} in `{call}` is outside {describe(parameter.type)}"
         return None
 
-    def _compile_possible(self, name: str) -> Callable[..., bool]:
+    def _compile_possible_in(self, name: str) -> Callable[..., bool]:
         function: Callable[..., bool] = self.compiler.namespace[self.compiler.precondition(name)]
         return function
+
+    def _compile_possible(self, name: str) -> Callable[..., bool]:
+        return self.knowing.known_true(self._possible_in[name], self.theory.actions[name].preconditions)
 
     def _compile_sense(self, name: str) -> Callable[..., tuple[Value, ...]]:
         action = self.theory.actions[name]
@@ -152,22 +215,37 @@ class Dynamics:
         terms = "".join(f"{self.compiler.expression(term, cells)}, " for term in action.senses)
         return self.compiler.function(_signature(cells), [f"return ({terms})"])
 
-    def _compile_cost(self, name: str) -> Callable[..., int]:
+    def _compile_cost(self, name: str) -> Callable[..., Number]:
         action = self.theory.actions[name]
         cells = variables(len(action.parameters))
         if action.cost is None:
             return self.compiler.function(_signature(cells), ["return 1"])
         span = action.cost.span
 
-        def negative(cost: int, *args: Value) -> None:
+        def negative(cost: Number, *args: Value) -> None:
             raise errors.negative_cost(span, show_call(name, args), cost)
 
         call = f"{self.compiler.bind('negative', negative)}(c{''.join(f', {cell.text}' for cell in cells)})"
-        lines = [f"c = {self.compiler.expression(action.cost, cells)}", f"if c < 0: {call}", "return c"]
+        lines = [f"c = {self.compiler.some(action.cost, cells, 0, 'a cost')}", f"if c < 0: {call}", "return c"]
         return self.compiler.function(_signature(cells), lines)
 
     def _compile_progress(self, name: str) -> Callable[..., State]:
         action = self.theory.actions[name]
+        if not action.effects or not self.compiler.uncertain:
+            return self._compile_certain(action)
+        branching = Branching(action, self.layout, self.compiler)
+        values = [effect.value for effect in action.effects]
+
+        def several(state: State, *args: Value) -> State:
+            with placed([value.among if isinstance(value, Choice) else value for value in values]):
+                return branching.progress(state, args)
+
+        if any(isinstance(value, Choice) for value in values):
+            return several
+        certain = self._compile_certain(action)
+        return lambda state, *args: certain(state, *args) if type(state) is tuple else several(state, *args)
+
+    def _compile_certain(self, action: Action) -> Callable[..., World]:
         cells = variables(len(action.parameters))
         if not action.effects:
             return self.compiler.function(_signature(cells), ["return s"])
@@ -188,7 +266,7 @@ class Dynamics:
                 indent += "  "
             for condition in (effect.where, effect.condition):
                 if condition is not None:
-                    lines.append(f"{indent}if {self.compiler.expression(condition, inner)}:")
+                    lines.append(f"{indent}if {self.compiler.formula(condition, inner)}:")
                     indent += "  "
             lines += [indent + line for line in self._assignment(effect, inner, collect)]
         return lines

@@ -9,7 +9,7 @@ from golc.theory.evaluate import DEPTH
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Operation, Quantified, Term
 from golc.theory.theory import Static
-from golc.theory.types import Type, Value, show_call
+from golc.theory.types import Type, Value, show, show_call
 
 MOST_REMEMBERED = 100_000
 """How many values of one static function are kept."""
@@ -84,12 +84,12 @@ def check(type_: Type, failure: Callable[[Value], Exception]) -> Callable[[Value
     return check
 
 
-def some(term: Term) -> Callable[[Value], Value]:
-    """A function that gives its argument back unless it is ``none``."""
+def some(term: Term, what: str) -> Callable[[Value], Value]:
+    """A function that gives its argument back unless it is ``none``; ``what`` says what the term is."""
 
     def some(value: Value) -> Value:
         if value is None:
-            raise errors.nothing(term.span, "an operand")
+            raise errors.nothing(term.span, what)
         return value
 
     return some
@@ -116,3 +116,47 @@ def extremum(term: Quantified) -> Callable[[list[int]], int]:
         return choose(values)
 
     return extremum
+
+
+def first(term: Operation) -> Callable[[tuple[Value, ...]], Value]:
+    """The first element of a list, which must not be empty."""
+
+    def first(whole: tuple[Value, ...]) -> Value:
+        if not whole:
+            raise errors.empty_list(term.span, "first")
+        return whole[0]
+
+    return first
+
+
+def rest(term: Operation) -> Callable[[tuple[Value, ...]], Value]:
+    """A list without its first element; it must not be empty."""
+
+    def rest(whole: tuple[Value, ...]) -> Value:
+        if not whole:
+            raise errors.empty_list(term.span, "rest")
+        return whole[1:]
+
+    return rest
+
+
+def index(term: Operation) -> Callable[[tuple[Value, ...], int], Value]:
+    """The element of a list at a place that the list must have."""
+
+    def index(whole: tuple[Value, ...], place: int) -> Value:
+        if not 0 <= place < len(whole):
+            raise errors.index_outside(term.span, place, len(whole))
+        return whole[place]
+
+    return index
+
+
+def removal(whole: tuple[Value, ...], gone: tuple[Value, ...]) -> tuple[Value, ...]:
+    """The elements of a list that do not occur in another one."""
+    without = set(gone)
+    return tuple([element for element in whole if element not in without])
+
+
+def text(type_: Type) -> Callable[[Value], str]:
+    """What a value of a type looks like in a text."""
+    return lambda value: show(value)

@@ -7,14 +7,15 @@ blocked, which values a condition had) comes from here, too.
 from __future__ import annotations
 
 from golc.situation.layout import Layout, World
+from golc.situation.worlds import ASK, Readable
 from golc.theory import errors
 from golc.theory.evaluate import Env, Evaluator
-from golc.theory.terms import Choice, FluentTerm, PossTerm
+from golc.theory.terms import Choice, Epistemic, FluentTerm, PossTerm
 from golc.theory.theory import Action, BasicActionTheory, Definition, Effect, Static
 from golc.theory.types import Value, show_call
 
 
-class Interpreter(Evaluator[World]):
+class Interpreter(Evaluator[Readable]):
     """Evaluates the terms of a theory in a state."""
 
     def __init__(self, theory: BasicActionTheory, layout: Layout | None = None) -> None:
@@ -27,33 +28,25 @@ class Interpreter(Evaluator[World]):
     def definition(self, name: str) -> Definition:
         return self.theory.definitions[name]
 
-    def fluent(self, term: FluentTerm, situation: World, env: Env) -> Value:
+    def fluent(self, term: FluentTerm, situation: Readable, env: Env) -> Value:
         place = self.layout.places[term.fluent]
         return situation[place.slot(self.arguments(term.fluent, place.fluent.parameters, term.args, situation, env))]
 
-    def poss(self, term: PossTerm, situation: World, env: Env) -> bool:
+    def poss(self, term: PossTerm, situation: Readable, env: Env) -> bool:
         action = self.theory.actions[term.action]
         return self.possible(
             action, situation, self.arguments(action.name, action.parameters, term.args, situation, env)
         )
 
-    def initial(self) -> World:
-        """The initial state."""
-        values: list[Value] = []
-        for name, args in self.layout.ground_fluents:
-            fluent = self.theory.fluents[name]
-            assert not isinstance(fluent.initial, Choice)
-            value = self.evaluate(fluent.initial, (), args)
-            if value not in fluent.type:
-                raise errors.value_outside(fluent.initial.span, show_call(name, args), value, fluent.type)
-            values.append(value)
-        return tuple(values)
+    def epistemic(self, term: Epistemic, situation: Readable, env: Env) -> bool:
+        """What the agent knows in the state that a world belongs to."""
+        return ASK[term.kind](lambda world: self.evaluate(term.body, world, env), situation)
 
-    def possible(self, action: Action, state: World, args: Env) -> bool:
+    def possible(self, action: Action, state: Readable, args: Env) -> bool:
         """Whether the action's preconditions hold."""
         return self.all_hold(action.preconditions, state, args)
 
-    def progress(self, action: Action, state: World, args: Env) -> World:
+    def progress(self, action: Action, state: Readable, args: Env) -> World:
         """The state after a ground action: all its effects at once, everything else unchanged."""
         changes: dict[int, Value] = {}
         for effect in action.effects:
@@ -63,9 +56,9 @@ class Interpreter(Evaluator[World]):
                     self._apply(effect, state, env, changes)
 
             self.visit(effect.binders, effect.where, state, args, apply)
-        return tuple([changes.get(slot, value) for slot, value in enumerate(state)])
+        return tuple([changes[slot] if slot in changes else state[slot] for slot in range(self.layout.size)])
 
-    def _apply(self, effect: Effect, state: World, env: Env, changes: dict[int, Value]) -> None:
+    def _apply(self, effect: Effect, state: Readable, env: Env, changes: dict[int, Value]) -> None:
         fluent = self.theory.fluents[effect.fluent]
         args = self.arguments(fluent.name, fluent.parameters, effect.args, state, env)
         slot = self.layout.places[fluent.name].slot(args)

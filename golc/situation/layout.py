@@ -19,9 +19,6 @@ from golc.theory.types import Type, Value
 World: TypeAlias = tuple[Value, ...]
 """One way the world may be: a value for each slot."""
 
-State: TypeAlias = World
-"""What the agent knows: the only possible world."""
-
 
 @dataclass(frozen=True)
 class Place:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from lark import UnexpectedInput
 
 from golc.diagnostics import Code, Diagnostic, Span
-from golc.syntax import blocks, foreign, gaps, keywords, quantifiers, signs
+from golc.syntax import blocks, choices, foreign, gaps, keywords, quantifiers, signs
 from golc.syntax.failure import Failure, Hint, failure
 from golc.syntax.layout import LayoutError
 
@@ -22,6 +22,7 @@ HINTS: tuple[Hint, ...] = (
     *blocks.LINES,
     *foreign.CHARACTERS,
     quantifiers.missing_quantifier,
+    *choices.HINTS,
     quantifiers.chained,
     signs.wrong_sign,
     signs.late_not,

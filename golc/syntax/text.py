@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import BinaryIO
 
 from golc.diagnostics import Code, Diagnostic, Source, Span, UserError
 
@@ -23,9 +24,14 @@ def read_source(path: str | Path, empty: str = DOMAIN_LINE) -> Source:
         raise _unreadable(name, "a file has a name")
     try:
         with Path(path).open("rb") as file:
-            data = file.read(LARGEST + 1)
+            return read_stream(name, file)
     except (OSError, ValueError) as error:
         raise _unreadable(name, _reason(error)) from None
+
+
+def read_stream(name: str, stream: BinaryIO) -> Source:
+    """The text of an open file, as ``read_source`` has it."""
+    data = stream.read(LARGEST + 1)
     if len(data) > LARGEST:
         raise _unreadable(name, f"it is larger than {LARGEST // 2**20} MiB")
     return Source(name, _decoded(name, data, empty))

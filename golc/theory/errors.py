@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, ProgramError, Span, counted
 from golc.theory.fitting import describe
-from golc.theory.types import Type, Value, show
+from golc.theory.types import Number, Type, Value, show
 
 
 def argument_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
@@ -21,7 +21,7 @@ def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramEr
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
 
 
-def negative_cost(span: Span, call: str, value: int) -> ProgramError:
+def negative_cost(span: Span, call: str, value: Number) -> ProgramError:
     """An action would cost less than nothing."""
     message = f"the cost of `{call}` would be {show(value)}, but a cost is at least 0"
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
@@ -74,3 +74,32 @@ def endless(span: Span, what: str) -> ProgramError:
     """A recursion that goes deeper than anything sensible."""
     message = f"the recursion of `{what}` does not end, or goes too deep"
     return ProgramError(Diagnostic(Code.ENDLESS_RECURSION, message, span))
+
+
+class UndecidedError(ProgramError):
+    """The agent does not know what it needs to go on: a dead end of look-ahead."""
+
+
+def undecided(span: Span, problem: str, notes: tuple[str, ...], help: str | None) -> UndecidedError:
+    """A condition is neither known to be true nor known to be false, or a value is not known."""
+    message = f"{problem}, so that the program cannot go on"
+    return UndecidedError(Diagnostic(Code.UNDECIDED, message, span, marker="not known", notes=notes, help=help))
+
+
+def too_many_worlds(span: Span, most: int) -> ProgramError:
+    """A question would have to be asked in more cases than can be gone through."""
+    message = f"more than {most} cases of what is unknown would have to be told apart here"
+    help_ = "sense or settle some of it first, or say less in one formula"
+    return ProgramError(Diagnostic(Code.TOO_MANY_WORLDS, message, span, help=help_))
+
+
+def no_initial_world(span: Span) -> ProgramError:
+    """The constraints on the initial situation contradict the initial values or one another."""
+    message = "no initial world is possible: this contradicts the initial values, or what is said before"
+    return ProgramError(Diagnostic(Code.NO_INITIAL_WORLD, message, span, marker="true in no world that is left"))
+
+
+def nothing_possible(span: Span, what: str) -> ProgramError:
+    """``one of`` an empty collection."""
+    message = f"`{what}` would have no possible value: the collection is empty"
+    return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker="empty here"))

@@ -89,7 +89,14 @@ class Evaluator(Generic[S]):
 
     def holds(self, formula: Term, situation: S, env: Env) -> bool:
         """Whether a formula is true."""
-        return bool(self.evaluate(formula, situation, env))
+        return self.some(formula, situation, env, "a formula") is True
+
+    def some(self, term: Term, situation: S, env: Env, what: str) -> Value:
+        """The value of a term that must not be ``none``; ``what`` says what the term is."""
+        value = self.evaluate(term, situation, env)
+        if value is None:
+            raise errors.nothing(term.span, what)
+        return value
 
     def all_hold(self, formulas: tuple[Term, ...], situation: S, env: Env) -> bool:
         """Whether all formulas are true; stops at the first one that is not."""
@@ -169,13 +176,7 @@ class Evaluator(Generic[S]):
     def _range(self, binder: Binder, situation: S, env: Env) -> Sequence[Value]:
         if binder.within is None:
             return binder.variable.type.values
-        return elements(self._some(binder.within, situation, env), binder.within.type)
-
-    def _some(self, term: Term, situation: S, env: Env) -> Value:
-        value = self.evaluate(term, situation, env)
-        if value is None:
-            raise errors.nothing(term.span, "a collection")
-        return value
+        return elements(self.some(binder.within, situation, env, "a collection"), binder.within.type)
 
     def _static(self, term: StaticTerm, situation: S, env: Env) -> Value:
         static = self.static(term.static)
@@ -197,9 +198,10 @@ class Evaluator(Generic[S]):
 
     def _quantified(self, term: Quantified, situation: S, env: Env) -> Value:
         found: list[Value] = []
+        what = "a formula" if term.kind in ("exists", "forall", "count") else "an operand"
 
         def decides(inner: Env) -> bool:
-            value = self.evaluate(term.body, situation, inner)
+            value = self.some(term.body, situation, inner, what)
             found.append(value)
             return value is (term.kind == "exists") and term.kind in ("exists", "forall")
 
@@ -243,14 +245,18 @@ class Evaluator(Generic[S]):
             case Operator.AND | Operator.OR:
                 decisive = term.op is Operator.OR
                 for arg in args:
-                    if self.evaluate(arg, situation, env) is decisive:
+                    if self.holds(arg, situation, env) is decisive:
                         return decisive
                 return not decisive
             case Operator.IMPLIES:
-                return not self.evaluate(args[0], situation, env) or self.evaluate(args[1], situation, env)
+                return not self.holds(args[0], situation, env) or self.holds(args[1], situation, env)
+            case Operator.NOT:
+                return not self.holds(args[0], situation, env)
+            case Operator.IFF:
+                return self.holds(args[0], situation, env) == self.holds(args[1], situation, env)
             case Operator.CONDITIONAL:
                 then, condition, otherwise = args
-                return self.evaluate(then if self.evaluate(condition, situation, env) else otherwise, situation, env)
+                return self.evaluate(then if self.holds(condition, situation, env) else otherwise, situation, env)
             case _:
                 return self.operate(term, self._operands(term, situation, env))
 

@@ -16,6 +16,8 @@ from typing import Any, Literal, TypeAlias, cast, overload
 
 Value: TypeAlias = Hashable
 
+Number: TypeAlias = int | Fraction
+
 
 @dataclass(frozen=True)
 class Type:
@@ -208,6 +210,13 @@ class Collection(Type):
         return f"{self.kind}[{self.element}]"
 
 
+@dataclass(frozen=True)
+class Unknown:
+    """What is shown in place of a value that the agent does not know: the possible ones."""
+
+    values: tuple[Value, ...]
+
+
 NONE = Optional(Enumeration(()))
 """The type of ``none`` alone."""
 
@@ -232,10 +241,14 @@ def show(value: Value) -> str:
     match value:
         case None:
             return "none"
+        case Unknown(values=values):
+            return _alternatives([show(each) for each in values[:MOST_ALTERNATIVES]], len(values))
         case bool():
             return "true" if value else "false"
         case int() if value.bit_length() > MOST_BITS:
             return f"{hex(value)[:12]}… ({value.bit_length()} bits)"
+        case Fraction(denominator=1):
+            return show(value.numerator)
         case Fraction():
             return _decimal(value)
         case frozenset():
@@ -244,6 +257,16 @@ def show(value: Value) -> str:
             return "[" + ", ".join(map(_part, value)) + "]"
         case _:
             return str(value)
+
+
+MOST_ALTERNATIVES = 5
+"""How many possible values are named for one that is not known."""
+
+
+def _alternatives(named: list[str], count: int) -> str:
+    if count > len(named):
+        return f"{', '.join(named)}, … ({count} possible values)"
+    return " or ".join(filter(None, [", ".join(named[:-1]), named[-1]]))
 
 
 def _decimal(value: Fraction) -> str:
@@ -285,6 +308,8 @@ def _rank(value: Value) -> tuple[int, Any]:
 def writable(thing: object) -> object:
     """A structure of values for JSON: a set is a list, a number that would not be exact there the text of ``show``."""
     match thing:
+        case Unknown(values=values):
+            return {"one of": writable(values)}
         case Mapping():
             return {name: writable(part) for name, part in thing.items()}
         case list() | tuple():

@@ -41,10 +41,10 @@ from golc.runtime.loop.happenings import (
 )
 from golc.runtime.loop.inbox import Inbox, Source
 from golc.runtime.loop.intake import Intake
-from golc.runtime.loop.policy import Policy
+from golc.runtime.loop.policy import OnSurprise, Policy, surprising
 from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.types import show_call
 
 A_MOMENT = 0.05
@@ -212,6 +212,8 @@ class Executive(Intake):
         if self.observers:
             now = self.clock.now()
             self.tell(Done(now, action, args, results, now - began, before, after, tuple(surprises)))
+        if surprises and self._policy.on_surprise is OnSurprise.STOP:
+            raise surprising(label, surprises[0])
         if self._invariants is not None:
             self._invariants.check(after, str(label), label.span)
 

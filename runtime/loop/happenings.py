@@ -14,7 +14,7 @@ from typing import TypeAlias
 from golc.diagnostics import DeviceError, Diagnostic, Span
 from golc.program.blame import Blocked as Why
 from golc.situation.dynamics import Surprise
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.types import Value
 
 

@@ -14,7 +14,7 @@ from golc.runtime.loop.happenings import Dropped, End, Happening, Observer, Refu
 from golc.runtime.loop.inbox import Broken, Closed, Command, Inbox, Item, Refusal, Report
 from golc.runtime.loop.policy import OnImpossible, Policy
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.types import show_call
 
 REMEMBERED = 1_000
@@ -80,18 +80,18 @@ class Intake:
             finding = Diagnostic(Code.EVENT, misfit, NOWHERE)
             self.tell(Refused(self.clock.now(), show_call(action, args), report.source, (finding,)))
             return
-        impossible = not self._holds(action, args)
-        if impossible and not self._goes_on(report):
+        witnessed = self._witnessed(action, args)
+        if witnessed is None and not self._goes_on(report):
             return
         try:
-            self.state = after = self.dynamics.progress(before, action, args)
+            self.state = after = self.dynamics.progress(before if witnessed is None else witnessed, action, args)
         except ProgramError as error:
             self._drop(report, error.diagnostic.message)
             return
         self.exogenous += 1
         self.history.append(report)
         if self.observers:
-            self.tell(TakenIn(self.clock.now(), action, args, report.source, impossible, before, after))
+            self.tell(TakenIn(self.clock.now(), action, args, report.source, witnessed is None, before, after))
         if self._invariants is not None:
             self._invariants.check(after, show_call(action, args), self.dynamics.theory.actions[action].span)
 
@@ -102,12 +102,12 @@ class Intake:
             return f"`{report.action}` is not an exogenous action of this domain"
         return self.dynamics.misfit(report.action, report.args)
 
-    def _holds(self, action: str, args: Args) -> bool:
-        """Whether an exogenous action is possible; one whose precondition cannot even be evaluated is not."""
+    def _witnessed(self, action: str, args: Args) -> State | None:
+        """The worlds in which an exogenous action could occur; none if in no world, or if that has no answer."""
         try:
-            return self.dynamics.possible(self.state, action, args)
+            return self.dynamics.witness(self.state, action, args)
         except ProgramError:
-            return False
+            return None
 
     def _goes_on(self, report: Report) -> bool:
         """Whether an exogenous action that the theory thinks impossible is applied all the same."""

@@ -6,9 +6,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
 
-from golc.diagnostics import DeviceError
+from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
 from golc.program.labels import Act
 from golc.runtime.loop.happenings import Remedy
+from golc.situation.dynamics import Surprise
+from golc.theory.types import show
 
 
 class OnImpossible(Enum):
@@ -20,9 +22,24 @@ class OnImpossible(Enum):
     STOP = "stop"
 
 
+class OnSurprise(Enum):
+    """A device senses what the theory thinks impossible."""
+
+    APPLY = "apply"
+    """The device is right: a sensed fluent takes the value."""
+    STOP = "stop"
+
+
 def stop(label: Act, error: DeviceError) -> Remedy:
     """End the run when a device fails."""
     return Remedy.STOP
+
+
+def surprising(label: Act, surprise: Surprise) -> ProgramError:
+    """The error of a run that is to stop at a surprise."""
+    message = f"`{label}` sensed {show(surprise.sensed)}, where {show(surprise.expected)} was expected"
+    labels = (Label(surprise.span, "sensed here"),)
+    return ProgramError(Diagnostic(Code.SURPRISE, message, label.span, labels=labels))
 
 
 @dataclass(frozen=True)
@@ -36,6 +53,7 @@ class Policy:
     """
 
     on_impossible: OnImpossible = OnImpossible.APPLY
+    on_surprise: OnSurprise = OnSurprise.APPLY
     on_failure: Callable[[Act, DeviceError], Remedy] = stop
     retry_after: float = 1.0
     stop_when_idle: float | None = None

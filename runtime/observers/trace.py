@@ -30,7 +30,7 @@ from golc.runtime.loop.happenings import (
 )
 from golc.runtime.observers.reasons import Reasons, one_line
 from golc.situation.dynamics import Dynamics
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.theory.types import Value, show, show_call
 
 WHAT, WHO = 30, 12
@@ -176,10 +176,10 @@ class Trace:
         if before == after:
             return ""
         arrow = self._style.sign("→", "->")
-        names = self._dynamics.layout.ground_fluents
+        values = self._dynamics.values
         changed = [
-            f"{show_call(name, args)} {show(old)} {arrow} {show(new)}"
-            for (name, args), old, new in zip(names, before, after, strict=True)
+            f"{show_call(*name)} {show(old)} {arrow} {show(new)}"
+            for (name, old), (_, new) in zip(values(before), values(after), strict=True)
             if old != new
         ]
         return ", ".join(changed)
@@ -214,7 +214,7 @@ def summary(dynamics: Dynamics, state: State) -> Iterator[str]:
     """A state in a few lines: fluents without arguments together, a relational one by where it holds, any other by its
     usual value and the exceptions."""
     values: dict[str, list[tuple[tuple[Value, ...], Value]]] = {}
-    for (name, args), value in zip(dynamics.layout.ground_fluents, state, strict=True):
+    for (name, args), value in dynamics.values(state):
         values.setdefault(name, []).append((args, value))
     plain = [f"{name} = {show(known[0][1])}" for name, known in values.items() if known[0][0] == ()]
     if plain:

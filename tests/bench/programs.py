@@ -7,6 +7,7 @@ from golc.planning.limits import Limits
 from golc.planning.planner import Executable, Planning, executable
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
+from golc.theory.theory import BasicActionTheory
 from tests.bench.measure import Row, Unit, seconds
 
 HEAD = """domain bench
@@ -60,13 +61,18 @@ proc control:
 """
 
 
-def ready(text: str) -> Executable:
-    """The program of a text, compiled."""
+def theory_of(text: str) -> BasicActionTheory:
+    """The theory that a text declares."""
     findings, source = Findings(), Source("bench.gl", text)
     file = parse_file(source, findings)
     theory = None if file is None else elaborate(file, source, findings)
     assert theory is not None, findings.diagnostics
-    return executable(theory, "control")
+    return theory
+
+
+def ready(text: str) -> Executable:
+    """The program of a text, compiled."""
+    return executable(theory_of(text), "control")
 
 
 def rate(body: str, steps: int) -> float:

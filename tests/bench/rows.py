@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 from collections.abc import Iterator
 
-from tests.bench import online, programs, startup
+from tests.bench import knowledge, online, programs, startup
 from tests.bench.measure import Row, seconds
 
 
@@ -14,6 +14,7 @@ def every_row() -> Iterator[Row]:
     yield from startup.ROWS
     yield from online.ROWS
     yield from programs.ROWS
+    yield from knowledge.ROWS
 
 
 def calibrate() -> float:

@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -242,3 +243,142 @@ def test_a_long_name_is_a_name(tmp_path: Path) -> None:
 def test_numbers_and_names_that_are_none_are_wrong_usage(options: tuple[str, str]) -> None:
     done = golc("plan", LIFT, "go(6)", *options)
     assert (done.returncode, "Traceback" in done.stderr) == (2, False)
+
+
+GATES = """domain gates
+type side = {north, south}
+type state = {open, shut}
+fluent gate(s: side): state = unknown
+fluent outside: bool = false
+fluent warned: bool = false
+action look(s: side):
+    senses gate(s)
+action ask:
+    senses gate(north)
+    senses gate(south) = open
+action pass(s: side):
+    poss gate(s) = open
+    causes outside := true
+action push(s: side):
+    causes gate(s) := open
+    cost 3
+exog ring expected:
+    poss not warned
+    causes warned := true
+goal out: outside
+proc control:
+    look(north)
+    wait until warned
+    if gate(north) = shut:
+        push(north)
+    pass(north)
+proc asking:
+    ask
+    pick s: side:
+        pass(s)
+proc both:
+    ask
+    if gate(north) = open or gate(south) = open:
+        skip
+    else:
+        push(south)
+"""
+
+
+@pytest.fixture
+def gates(tmp_path: Path) -> str:
+    file = tmp_path / "gates.gl"
+    file.write_text(GATES)
+    return str(file)
+
+
+def test_a_conditional_plan_is_indented(gates: str) -> None:
+    done = golc("plan", gates)
+    assert (done.returncode, done.stderr) == (0, "1 plan\n")
+    assert done.stdout == (
+        "look(north)\n"
+        "gate(north) = open:\n"
+        "    … ring\n"
+        "    pass(north)\n"
+        "gate(north) = shut:\n"
+        "    … ring\n"
+        "    push(north)\n"
+        "    pass(north)\n"
+    )
+
+
+def test_a_branch_without_a_step_says_so_and_all_results_are_named(gates: str) -> None:
+    assert golc("plan", gates, "both").stdout.splitlines() == [
+        "ask",
+        "gate(north) = open, (gate(south) = open) = true: nothing more",
+        "gate(north) = open, (gate(south) = open) = false: nothing more",
+        "gate(north) = shut, (gate(south) = open) = true: nothing more",
+        "gate(north) = shut, (gate(south) = open) = false:",
+        "    push(south)",
+    ]
+
+
+def test_a_conditional_plan_as_json(gates: str) -> None:
+    [plan] = json.loads(golc("plan", gates, "--format", "json").stdout)["plans"]
+    ring = {"expected": "ring", "args": []}
+    push, through = ({"action": name, "args": ["north"]} for name in ("push", "pass"))
+    branches = [
+        {"results": ["open"], "plan": [ring, through]},
+        {"results": ["shut"], "plan": [ring, push, through]},
+    ]
+    assert plan == [{"action": "look", "args": ["north"], "senses": ["gate(north)"], "branches": branches}]
+
+
+def test_a_conditional_plan_as_a_graph(gates: str) -> None:
+    text = golc("plan", gates, "--format", "dot", "-q").stdout
+    assert text.startswith("digraph plans {\n") and text.endswith("}\n")
+    nodes = dict(re.findall(r'^    (n\d+) \[label="([^"]*)"', text, re.MULTILINE))
+    edges = re.findall(r'^    (\w+) -> (\w+)(?: \[label="(.*)"\])?;', text, re.MULTILINE)
+    named = sorted((nodes.get(a, a), nodes.get(b, b), label) for a, b, label in edges)
+    assert named == [
+        ("begin1", "look(north)", ""),
+        ("look(north)", "… ring", "gate(north) = open"),
+        ("look(north)", "… ring", "gate(north) = shut"),
+        ("pass(north)", "end1", ""),
+        ("pass(north)", "end1", ""),
+        ("push(north)", "pass(north)", ""),
+        ("… ring", "pass(north)", ""),
+        ("… ring", "push(north)", ""),
+    ]
+    assert text.count("style=dashed") == 2
+
+
+def test_graphs_of_several_plans_stand_beside_each_other() -> None:
+    text = golc("plan", LIFT, "--all", "--format", "dot", "-q").stdout
+    assert [line.strip() for line in text.splitlines() if 'label="plan' in line] == [
+        'label="plan 1";',
+        'label="plan 2";',
+    ]
+    assert text.count("{") == text.count("}") == 3
+
+
+def test_the_result_that_has_no_way_is_named(gates: str) -> None:
+    done = golc("plan", gates, "asking")
+    assert done.returncode == 1
+    lines = done.stderr.splitlines()
+    assert lines[0] == "no plan for `asking`: proven: it cannot be executed to its end"
+    assert lines[1] == "the longest way was: ask (gate(north) = shut, (gate(south) = open) = false); there"
+    assert lines[2].endswith("`pass(north)` is not possible: `gate(s) = open` is false (gate(north) = shut, s = north)")
+
+
+def test_a_conformant_plan_makes_no_use_of_results(gates: str) -> None:
+    for options in (["--goal", "out"], ["--goal", "out", "--shortest"]):
+        assert golc("plan", gates, *options, "--conformant").stdout == "push(north)\npass(north)\n"
+    assert golc("plan", gates, "asking", "--conformant").returncode == 1
+    assert golc("plan", gates, "asking", "--conformant", "--all", "--cheapest").returncode == 2
+
+
+def test_plans_that_branch_are_not_listed(gates: str) -> None:
+    done = golc("plan", gates, "--all")
+    assert done.returncode == 2
+    assert "those that do not are listed with --conformant" in done.stderr
+
+
+def test_the_cost_is_that_of_the_dearest_branch(gates: str) -> None:
+    done = golc("plan", gates, "--cheapest", "--stats")
+    assert done.stderr.startswith("1 plan of cost 5, ")

@@ -2,12 +2,12 @@
 
 How a page is read:
 
-- A ``golc`` block that begins with ``domain`` is a file without findings.
+- A ``golc`` block that begins with ``domain`` is a file without findings, laid out as ``golc fmt`` does it.
 - If a ``text`` block that begins with a finding follows at once, the file has exactly these findings.
 - A line that ends in ``# planned`` is answered with "not supported yet"; a file that has one has no other findings.
 - Any other ``golc`` block is a part of a file, a part of a program, or expressions, and has to parse.
-- A block with a name behind its language (``golc garden.gl``) is saved under that name for the sessions below it, or
-  appended to the file (``golc + garden.gl``).
+- A block with a name behind its language (``golc garden.gl``) is saved under that name for what stands below it, or
+  appended to the file (``golc + garden.gl``), which then as a whole is a file without findings.
 - A ``console`` block with a ``$ golc`` line is a session: its commands are run, and their output is compared (see
   ``Terminal``). What should not be run stands in a block of another language.
 """
@@ -27,6 +27,7 @@ from golc.cli import COMMANDS, cli
 from golc.diagnostics import Code, Findings, Source
 from golc.loading import examine
 from golc.rendering import render
+from golc.syntax.format import formatted
 from golc.syntax.parse import parse_expression, parse_file
 
 if TYPE_CHECKING:
@@ -39,7 +40,7 @@ if TYPE_CHECKING:
 
 
 ROOT = Path(__file__).parents[2]
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md"))]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").rglob("*.md")), *sorted((ROOT / "examples").glob("*/README.md"))]
 FENCE = re.compile(r"^```(\S*) ?(.*)\n((?:.*\n)*?)```$", re.MULTILINE)
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
 
@@ -106,6 +107,8 @@ def _ids(found: list[Block]) -> list[str]:
 
 DOMAINS = [block for block in BLOCKS if block.is_domain]
 PARTS = [block for block in BLOCKS if block.language == "golc" and not block.is_domain]
+LONGEST = list({(block.page, block.file): block for block in PARTS if block.name}.values())
+"""The last block of each file that has several."""
 
 
 @pytest.mark.parametrize("block", DOMAINS, ids=_ids(DOMAINS))
@@ -113,7 +116,7 @@ def test_domain_has_the_findings_that_the_page_shows(
     block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    block.save(tmp_path)
+    save_page(block, tmp_path)
     _, found = examine(block.file)
     planned = [number for number, line in enumerate(block.text.splitlines(), 1) if line.endswith("# planned")]
     if planned:
@@ -121,6 +124,31 @@ def test_domain_has_the_findings_that_the_page_shows(
         assert {finding.code for finding in found} == {Code.UNSUPPORTED}
     else:
         assert "\n\n".join(map(render, found)) == block.findings.rstrip()
+
+
+def save_page(block: Block, folder: Path) -> None:
+    """Write the file of a block as far as the page has come with it, and whatever other files the page shows."""
+    for one in blocks(block.page):
+        if one.name and (one.file != block.file or one.line < block.line):
+            one.save(folder)
+    block.save(folder)
+
+
+@pytest.mark.parametrize("block", LONGEST, ids=_ids(LONGEST))
+def test_file_in_several_blocks_has_no_findings(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    save_page(block, tmp_path)
+    assert "\n\n".join(map(render, examine(block.file)[1])) == ""
+
+
+WHOLE = [*(block for block in DOMAINS if not block.findings), *LONGEST]
+
+
+@pytest.mark.parametrize("block", WHOLE, ids=_ids(WHOLE))
+def test_file_is_laid_out_canonically(block: Block, tmp_path: Path) -> None:
+    save_page(block, tmp_path)
+    text = (tmp_path / block.file).read_text(encoding="utf-8")
+    assert formatted(Source(str(block), text), Findings()) == text
 
 
 @pytest.mark.parametrize("block", PARTS, ids=_ids(PARTS))

@@ -10,7 +10,7 @@ from golc.diagnostics import ProgramError, UserError
 from golc.loading import GOAL, load
 from golc.planning.goals import GoalPlanning
 from golc.planning.limits import Limits
-from golc.planning.planner import Outcome
+from golc.planning.plans import Outcome
 
 LIFT = """domain lift
 type floor = 1..4

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from itertools import accumulate, pairwise, permutations
+from itertools import pairwise, permutations
 from pathlib import Path
 
 from hypothesis import assume, given
@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from golc.diagnostics import Findings, Source
 from golc.planning.limits import Limits
-from golc.planning.planner import Executable, Plan, Planning, executable
+from golc.planning.planner import Executable, Planning, executable
+from golc.planning.plans import Plan
 from golc.program.labels import Act
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
@@ -60,14 +61,13 @@ def one(program: Executable, strategy: Strategy, limits: Limits) -> Plan | None:
 
 def cost(program: Executable, plan: tuple[Act, ...]) -> int:
     """The sum of the costs, by the interpreter of terms instead of the compiled functions."""
-    dynamics = program.dynamics
-    states = accumulate(plan, lambda s, act: dynamics.progress(s, act.action, act.args), initial=dynamics.initial())
-    total = 0
-    for act, state in zip(plan, states, strict=False):
+    dynamics, state, total = program.dynamics, program.dynamics.initial(), 0
+    for act in plan:
         term = dynamics.theory.actions[act.action].cost
-        value = 1 if term is None else dynamics.interpreter.evaluate(term, state, act.args)
+        value = 1 if term is None else dynamics.knowing.evaluate(term, state, act.args)
         assert isinstance(value, int)
         total += value
+        state = dynamics.progress(state, act.action, act.args)
     return total
 
 

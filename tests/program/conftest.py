@@ -11,7 +11,7 @@ from golc.planning.planner import Executable, executable
 from golc.program.labels import Abort, Act, Clock, Label, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.program.step import Machine
-from golc.situation.layout import State
+from golc.situation.worlds import State
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
 

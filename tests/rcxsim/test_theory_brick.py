@@ -49,6 +49,20 @@ def test_what_was_sensed_once_stays_so(wire: MakeWire) -> None:
         assert [lift.act(number) for number in (34, 35, 36)] == first
 
 
+def test_what_the_theory_leaves_open_is_settled_within_its_constraints(wire: MakeWire, tmp_path: Path) -> None:
+    file = tmp_path / "gates.gl"
+    file.write_text(
+        "domain gates\n\ntype lane = {left, right}\nfluent closed(l: lane) = unknown\n"
+        "initially not closed(left) or not closed(right)\n\naction look(l: lane):\n    senses closed(l)\n\n"
+        'device rcx "gates.nqc":\n    0 .. look(l: lane) by call look\n'
+    )
+    seen = set()
+    for seed in range(30):
+        gates = wire(seed=seed, theory=load(file))
+        seen.add(tuple(gates.act(number)[0] for number in (32, 33)))
+    assert seen == {(64, 64), (64, 65), (65, 64)}
+
+
 def test_what_is_in_front_of_the_sensor_changes_when_something_else_is_done(wire: MakeWire, tmp_path: Path) -> None:
     file = tmp_path / "belt.gl"
     file.write_text(

@@ -54,7 +54,7 @@ def theory_of(text: str) -> BasicActionTheory:
 def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: str, place: str, message: str) -> None:
     theory = theory_of(f"{DOMAIN}action a:\n    causes {effect}\n")
     dynamics = Dynamics(theory)
-    state = dynamics.initial()
+    state = dynamics.realize(dynamics.initial())
     ways: list[Callable[[], object]] = [
         lambda: dynamics.progress(state, "a", ()),
         lambda: dynamics.interpreter.progress(theory.actions["a"], state, ()),
@@ -101,11 +101,12 @@ def test_a_recursion_is_endless_at_one_depth(static: str) -> None:
 
 
 def by_the_tree(theory: BasicActionTheory) -> Callable[[str], object]:
-    interpreter = Dynamics(theory).interpreter
+    dynamics = Dynamics(theory)
+    start = dynamics.realize(dynamics.initial())
 
     def progress(action: str) -> object:
         with deep_recursion():
-            return interpreter.progress(theory.actions[action], interpreter.initial(), ())
+            return dynamics.interpreter.progress(theory.actions[action], start, ())
 
     return progress
 

@@ -14,7 +14,7 @@ from golc.nqc.numbering import ActionMap
 from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.sources.schedule import Player
 from golc.situation.dynamics import Args
-from golc.situation.layout import State
+from golc.situation.layout import World
 
 Event = tuple[str, Args]
 """An exogenous action and its arguments."""
@@ -31,7 +31,7 @@ class Events(Protocol):
     def began(self, action: str, args: Args, now: float) -> None:
         """An action of the host begins."""
 
-    def ended(self, before: State, started: bool, now: float) -> None:
+    def ended(self, before: World, started: bool, now: float) -> None:
         """It has ended (if ``started``: its task goes on); ``before`` is the state without its effects."""
 
     def stopped(self, now: float) -> None:
@@ -58,7 +58,7 @@ class Scripted:
     def began(self, action: str, args: Args, now: float) -> None:
         self._player.performed(action, args, now - (self._start or 0.0))
 
-    def ended(self, before: State, started: bool, now: float) -> None:
+    def ended(self, before: World, started: bool, now: float) -> None:
         """Lines count from the beginning of an action."""
 
     def stopped(self, now: float) -> None:
@@ -125,7 +125,7 @@ class Chance:
         self._busy = True
         self._person = None
 
-    def ended(self, before: State, started: bool, now: float) -> None:
+    def ended(self, before: World, started: bool, now: float) -> None:
         self._busy = False
         if started:
             matters = self.world.matters

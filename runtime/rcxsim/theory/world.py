@@ -12,8 +12,9 @@ from golc.diagnostics import ProgramError
 from golc.nqc.numbering import implied
 from golc.runtime.rcxsim.trace import Trace
 from golc.situation.dynamics import Args, Dynamics
-from golc.situation.layout import State
-from golc.theory.terms import FluentTerm
+from golc.situation.layout import World
+from golc.situation.worlds import State
+from golc.theory.terms import Choice, FluentTerm
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import Value, show, show_call
 
@@ -27,11 +28,12 @@ class TheoryWorld:
     def __init__(self, theory: BasicActionTheory, chance: random.Random, trace: Trace) -> None:
         self.theory = theory
         self.dynamics = Dynamics(theory)
-        self.state: State = self.dynamics.initial()
         self._chance = chance
+        self.state = self._settled_by_chance(self.dynamics.initial())
         self._trace = trace
         changed = {effect.fluent for action in theory.actions.values() for effect in action.effects}
-        self._facts = frozenset(theory.fluents) - changed
+        left_open = {fluent.name for fluent in theory.fluents.values() if isinstance(fluent.initial, Choice)}
+        self._facts = frozenset(theory.fluents) - changed - left_open
         self._settled: set[tuple[str, Args]] = set()
         self._elsewhere = [action for action in theory.actions.values() if _comes_from_elsewhere(theory, action)]
 
@@ -41,13 +43,17 @@ class TheoryWorld:
         try:
             if not self.dynamics.possible(before, action, args):
                 problem = "it is not possible here"
-            self.state = self.dynamics.progress(before, action, args)
+            self.state = self._settled_by_chance(self.dynamics.progress(before, action, args))
         except ProgramError as error:
             problem = error.diagnostic.message
         if not self.theory.actions[action].senses:
             self._settled = {(fluent, of) for fluent, of in self._settled if of}
         details: dict[str, Any] = {} if problem is None else {"problem": problem}
         self._trace.tell(now, what, action=show_call(action, args), changed=self._changes(before), **details)
+
+    def _settled_by_chance(self, state: State) -> World:
+        """The world is one way, whatever the theory leaves open."""
+        return self.dynamics.realize(state, self._chance.randrange)
 
     def catch_up_with(self, action: str, args: Args, now: float) -> None:
         """The host begins an action. If that is impossible as far as the brick knows, something may have happened that
@@ -73,7 +79,7 @@ class TheoryWorld:
         except ProgramError:
             return False
 
-    def matters(self, action: str, args: Args, state: State | None = None) -> bool:
+    def matters(self, action: str, args: Args, state: World | None = None) -> bool:
         """Whether an action can take place and would change something, now or in the given state."""
         state = self.state if state is None else state
         try:
@@ -86,8 +92,9 @@ class TheoryWorld:
     def sense(self, action: str, args: Args, answers: Sequence[Value] | None) -> Value:
         """What a perfect device answers after the action; ``answers`` are the values that it has numbers for.
 
-        A sensed fluent that no action of the theory changes is a fact that only the world knows, whatever the theory
-        takes for its first value: chance settles it when it is sensed first. With arguments it speaks of some place or
+        What the theory leaves open chance has settled already. A sensed fluent that no action of the theory changes is
+        a fact that only the world knows, whatever value the theory takes for it: chance settles it when it is sensed
+        first. With arguments it speaks of some place or
         thing and stays so; without, it is what is in front of the sensor now, until anything else is done.
         """
         self._settle(action, args, answers)
@@ -104,9 +111,10 @@ class TheoryWorld:
         values = term.type.values if term.type.finite else ()
         choice = [value for value in values if answers is None or value in answers]
         if choice:
-            self.state, _ = self.dynamics.assimilate(self.state, action, args, (self._chance.choice(choice),))
+            state, _ = self.dynamics.assimilate(self.state, action, args, (self._chance.choice(choice),))
+            self.state = self._settled_by_chance(state)
 
-    def _changes(self, before: State) -> dict[str, str]:
+    def _changes(self, before: World) -> dict[str, str]:
         names = self.dynamics.layout.ground_fluents
         return {
             show_call(*name): show(new)

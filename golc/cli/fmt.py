@@ -1,0 +1,112 @@
+"""``golc fmt``: domain files in canonical layout."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from io import StringIO
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from golc.cli.common import Console, completed, console_options
+from golc.diagnostics import counted
+
+if TYPE_CHECKING:
+    from golc.diagnostics import Source
+
+STDIN = "<stdin>"
+
+
+@click.command(name="fmt", short_help="Lay out domain files canonically.")
+@click.argument("files", nargs=-1, required=True, metavar="FILE…")
+@click.option("--check", "only_check", is_flag=True, help="Change nothing: list the files that would change.")
+@click.option("--diff", is_flag=True, help="Change nothing: show what would change.")
+@console_options
+def command(console: Console, files: tuple[str, ...], only_check: bool, diff: bool) -> int:
+    """Bring the FILEs into canonical layout; comments stay where they are. `-` goes from stdin to stdout.
+
+    A file that does not parse is left as it is, with its findings on stderr. Ends with 1 if there is one, and with
+    --check also if a file would change.
+
+    \b
+    golc fmt examples/delivery/delivery.gl
+    golc fmt --check examples/*/*.gl
+    """
+    results = [result for file in files for result in _laid_out(console, file)]
+    if diff:
+        for result in results:
+            sys.stdout.writelines(result.difference())
+    elif only_check:
+        for result in results:
+            if result.changed:
+                console.out(result.name)
+    else:
+        results = [result for result in results if result.write(console)]
+    changed = sum(result.changed for result in results)
+    console.note(_summary(len(results), changed, len(files) - len(results), only_check or diff))
+    return int(len(results) < len(files) or (only_check and changed > 0))
+
+
+@dataclass(frozen=True)
+class _Result:
+    """A file with its text and its canonical text; ``changed`` is told by the bytes, a byte order mark among them."""
+
+    source: Source
+    text: str
+    changed: bool
+
+    @property
+    def name(self) -> str:
+        return self.source.name
+
+    def difference(self) -> Iterator[str]:
+        """The lines of a patch."""
+        from difflib import unified_diff
+
+        before, after = (list(StringIO(text, newline="\n")) for text in (self.source.text, self.text))
+        for line in unified_diff(before, after, self.name, f"{self.name} (canonical)"):
+            yield line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
+
+    def write(self, console: Console) -> bool:
+        """Write the text if it is another one; whether that has gone well."""
+        if self.name == STDIN:
+            sys.stdout.write(self.text)
+        elif self.changed:
+            try:
+                with completed(Path(os.path.realpath(self.name))) as stream:
+                    stream.write(self.text)
+            except OSError as error:
+                console.err(f"error: `{self.name}` cannot be written: {error.strerror or error}")
+                return False
+            if console.verbosity >= 0:
+                console.out(f"wrote {self.name}")
+        return True
+
+
+def _laid_out(console: Console, file: str) -> Iterator[_Result]:
+    """What is to become of a file: nothing, but its findings are told, if it cannot be read or does not parse."""
+    from golc.diagnostics import Findings, UserError
+    from golc.rendering import render
+    from golc.syntax.format import formatted
+    from golc.syntax.text import read_source, read_stream
+
+    findings = Findings()
+    try:
+        source = read_stream(STDIN, sys.stdin.buffer) if file == "-" else read_source(file)
+        text = formatted(source, findings)
+        if text is not None:
+            same = source.text == text if file == "-" else Path(file).read_bytes() == text.encode()
+            yield _Result(source, text, not same)
+    except UserError as error:
+        findings.diagnostics += error.diagnostics
+    for finding in findings.diagnostics:
+        console.err(render(finding, console.colored(sys.stderr)) + "\n")
+
+
+def _summary(files: int, changed: int, left: int, would: bool) -> str:
+    parts = [f"{counted(files, 'file')}: {changed or 'none'} {'would change' if would else 'changed'}"]
+    return ", ".join([*parts, f"{left} left as {'it is' if left == 1 else 'they are'}"] if left else parts)

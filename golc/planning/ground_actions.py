@@ -1,0 +1,106 @@
+"""The ground actions of a theory: what can be done in a state without a program."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+
+from golc.diagnostics import Code, Diagnostic, UserError
+from golc.program.blame import Blocked, impossible, pruned
+from golc.program.labels import Act
+from golc.program.prunes import Prunes
+from golc.situation.dynamics import Dynamics, Outcome
+from golc.situation.worlds import State
+from golc.theory.fitting import size
+from golc.theory.theory import Action
+
+MOST_INSTANCES = 100_000
+"""How many ground actions of one action are tried in each state."""
+
+
+@dataclass(frozen=True)
+class _Ground:
+    """An action with arguments, and the compiled function that says whether it is possible."""
+
+    label: Act
+    possible: Callable[..., bool]
+
+
+class GroundActions:
+    """Every primitive action with all its arguments, in the order of declaration, then of the parameters' types, the
+    last argument fastest. Raises ``UserError`` for an action whose instances cannot be listed."""
+
+    def __init__(self, dynamics: Dynamics) -> None:
+        self._dynamics = dynamics
+        self._prunes = Prunes(dynamics)
+        actions = [action for action in dynamics.theory.actions.values() if not action.exogenous]
+        _check_finite(actions)
+        self._ground = [ground for action in actions for ground in self._instances(action)]
+
+    def _instances(self, action: Action) -> Iterator[_Ground]:
+        possible = self._dynamics.possible_function(action.name)
+        for args in itertools.product(*[parameter.type.values for parameter in action.parameters]):
+            yield _Ground(Act(action.name, args, action.span), possible)
+
+    def successors(self, state: State) -> Iterator[tuple[Act, State]]:
+        """What can be done in a state without entering a bad situation, with the state after it, as long as it is not
+        known what the action senses."""
+        for ground in self._ground:
+            label = ground.label
+            if ground.possible(state, *label.args):
+                after = self._dynamics.progress(state, label.action, label.args)
+                if self._prune(state, label, after) is None:
+                    yield label, after
+
+    def forks(self, state: State) -> Iterator[tuple[Act, list[Outcome]]]:
+        """The same, with what may be sensed."""
+        for label, after in self.successors(state):
+            outcomes = self._dynamics.outcomes(after, label.action, label.args)
+            if all(self._prune(state, label, outcome.state) is None for outcome in outcomes):
+                yield label, outcomes
+
+    def why_not(self, state: State, most: int) -> list[Blocked]:
+        """Why not even one of the first actions, at most so many, can be done in a state."""
+        return [self._why_not(state, ground) for ground in self._ground[:most]]
+
+    def _prune(self, before: State, label: Act, after: State) -> str | None:
+        return self._prunes.hit(before, label.action, label.args, after) if self._prunes else None
+
+    def _why_not(self, state: State, ground: _Ground) -> Blocked:
+        label = ground.label
+        if not ground.possible(state, *label.args):
+            return impossible(self._dynamics, state, label.action, label.args)
+        after = self._dynamics.progress(state, label.action, label.args)
+        for outcome in [Outcome((), after), *self._dynamics.outcomes(after, label.action, label.args)]:
+            prune = self._prune(state, label, outcome.state)
+            if prune is not None:
+                return pruned(label.span, prune, label, outcome.results)
+        raise AssertionError(label)
+
+
+def _check_finite(actions: list[Action]) -> None:
+    """Every instance of every action can be tried; raises ``UserError`` otherwise."""
+    findings = []
+    for action in actions:
+        instances = 1
+        for parameter in action.parameters:
+            if not parameter.type.finite:
+                message = f"`{action.name}` cannot be used to plan for a goal: `{parameter.name}` has no list of values"
+                findings.append(
+                    Diagnostic(
+                        Code.BAD_TYPE,
+                        message,
+                        parameter.span,
+                        marker=f"`{parameter.type}` has no end",
+                        help="give it an interval or an enumeration as its type, or plan with a procedure",
+                    )
+                )
+                instances = 0
+            else:
+                instances *= size(parameter.type)
+        if instances > MOST_INSTANCES:
+            message = f"`{action.name}` has more than {MOST_INSTANCES} instances, too many to plan for a goal"
+            findings.append(Diagnostic(Code.BAD_TYPE, message, action.span))
+    if findings:
+        raise UserError(*findings)
