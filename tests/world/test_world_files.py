@@ -72,7 +72,7 @@ def findings(text: str) -> list[tuple[str, str, str]]:
     with pytest.raises(UserError) as caught:
         parse_world(Source("w.toml", text))
     found = caught.value.diagnostics
-    assert all(finding.code in (Code.WORLD, Code.PEOPLE, Code.SYNTAX) for finding in found)
+    assert all(finding.code in (Code.WORLD, Code.SYNTAX) for finding in found)
     return [(f"{finding.span.line}:{finding.span.column}", finding.span.text, finding.message) for finding in found]
 
 

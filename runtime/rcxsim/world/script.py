@@ -63,7 +63,7 @@ def read_line(text: str, where: Span, names: Names, findings: Findings) -> Line 
     when, colon, what = text.partition(":")
     match = _TRIGGER.fullmatch(when.strip())
     if not colon or match is None:
-        findings.error(Code.PEOPLE, f"`{text.strip()}` does not say when people do what", where, help=FORMS)
+        findings.error(Code.WORLD, f"`{text.strip()}` does not say when people do what", where, help=FORMS)
         return None
     deed = _deed(what.strip(), where, names, findings)
     if not _known(match["station"], "station", names.stations, where, findings) or deed is None:
@@ -72,14 +72,14 @@ def read_line(text: str, where: Span, names: Names, findings: Findings) -> Line 
         return Line(At(), _micro(match["at"]), deed)
     nth = None if match["nth"] is None else int(match["nth"])
     if nth == 0:
-        findings.error(Code.PEOPLE, "counts begin with `1st`", where)
+        findings.error(Code.WORLD, "counts begin with `1st`", where)
         return None
     trigger: OnSound | OnStop = OnStop()
     if match["sound"]:
         number = _sound(match["which"])
         if number == _UNHEARD_OF:
             help_ = did_you_mean(match["which"], SOUNDS) or f"the sounds are {', '.join(SOUNDS)}, or 0 to 5"
-            findings.error(Code.PEOPLE, f"the brick has no sound `{match['which']}`", where, help=help_)
+            findings.error(Code.WORLD, f"the brick has no sound `{match['which']}`", where, help=help_)
             return None
         trigger = OnSound(number)
     return Line(trigger, _micro(match["after"]), deed, nth, match["station"])
@@ -100,7 +100,7 @@ def _sound(word: str | None) -> int | None:
 def _deed(text: str, where: Span, names: Names, findings: Findings) -> Deed | None:
     match = _DEED.fullmatch(text)
     if match is None:
-        findings.error(Code.PEOPLE, f"`{text}` is nothing that people can do here", where, help=DEEDS)
+        findings.error(Code.WORLD, f"`{text}` is nothing that people can do here", where, help=DEEDS)
         return None
     if match["button"]:
         known = _known(match["button"], "button", [*names.buttons, *BRICK_BUTTONS], where, findings)
@@ -123,7 +123,7 @@ def _known(name: str | None, what: str, names: Collection[str], where: Span, fin
     if name is None or name in names:
         return True
     help_ = did_you_mean(name, names) or (f"there are {', '.join(names)}" if names else f"the file has no {what}")
-    findings.error(Code.PEOPLE, f"there is no {what} `{name}`", where, help=help_)
+    findings.error(Code.WORLD, f"there is no {what} `{name}`", where, help=help_)
     return False
 
 
