@@ -8,7 +8,9 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from golc.diagnostics import Diagnostic, Findings, Source, Span
 from golc.planning.planner import executable
@@ -35,6 +37,10 @@ from golc.theory.statements import Message
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
+if TYPE_CHECKING:
+    from golc.runtime.rcxsim.process import BrickProcess
+    from golc.runtime.standin import Setting
+
 SIMULATED = "sim"
 """The port that stands for a simulated brick."""
 
@@ -56,6 +62,9 @@ class Settings:
     step: bool = False
     speed: float = 1.0
     seed: int = 0
+    world: str | None = None
+    """The file of the world in which a simulated brick is, ``none``, or None for the one beside the domain."""
+    picture: Path | None = None
     constants: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -93,6 +102,7 @@ class _Session:
         self.stack = stack
         self.inbox = Inbox()
         self.maps = brick_maps(theory)
+        self.brick: BrickProcess | None = None
         self.executable = executable(theory, program.action, program.args)
         self.dynamics = self.executable.dynamics
         self.stdin = _descriptor()
@@ -112,6 +122,8 @@ class _Session:
         self.executive.observers += [timetable.observe, *observers]
         self.greet()
         outcome = self.executive.run()
+        if self.brick is not None and (said := self.brick.close()):
+            self.say(said)
         if pending := timetable.pending:
             self.say(f"the schedule still had {pending} event{'' if pending == 1 else 's'} to come")
         return outcome
@@ -134,13 +146,27 @@ class _Session:
             return None
         if not self.simulated:
             return Link(settings.port or "", settings.speed)
-        from golc.runtime.rcxsim.process import BrickOptions, spawn
+        from golc.runtime.rcxsim.process import BrickOptions
+        from golc.runtime.standin import stand_in
 
         options = BrickOptions(
-            speed=settings.speed, seed=settings.seed, events=settings.events, constants=settings.constants
+            speed=settings.speed,
+            seed=settings.seed,
+            events=settings.events,
+            constants=settings.constants,
+            picture=settings.picture,
         )
-        brick = self.stack.enter_context(spawn(self.theory.source.name, options))
-        return Link(brick.port, settings.speed)
+        self.brick = stand_in(self.theory, self.maps, self.setting, options, self.stack)
+        return Link(self.brick.port, settings.speed)
+
+    @cached_property
+    def setting(self) -> Setting:
+        """Where the brick is simulated, if it is."""
+        from golc.runtime.standin import Setting, setting
+
+        if not self.simulated:
+            return Setting(None)
+        return setting(self.theory, self.maps, self.settings.world, self.settings.events is not None)
 
     @property
     def simulated(self) -> bool:
@@ -149,6 +175,8 @@ class _Session:
 
     def is_ours(self, event: Call) -> bool:
         """Whether a line of the events file is reported from here, and not by the simulated brick."""
+        if self.setting.world is not None:
+            return True
         return not (self.simulated and any(actions.handles(event.action, event.args) for actions in self.maps.values()))
 
     def sources(self, devices: Sequence[Device], clock: Clock) -> list[EventSource]:
@@ -189,10 +217,14 @@ class _Session:
         where = f"on {self.settings.port}" if self.settings.port and not self.simulated else ""
         if self.simulated:
             speed = "" if self.settings.speed == 1 else f", {self.settings.speed:g} times as fast as a real one"
-            where = f"on a simulated brick{speed}" + ("" if self.settings.port else " (no --port was given)")
+            world = self.setting.world
+            where = "on a simulated brick" + (f" in {world}" if world else "") + speed
+            where += "" if self.settings.port else " (no --port was given)"
         if self.voice.verbosity >= 0:
             title = self.voice.style.paint(BOLD, f"{self.theory.name}: {self.program}")
             self.voice.write(f"{MARGIN}{title} {where}".rstrip())
+        if self.setting.hint:
+            self.say(self.setting.hint)
         if self.interactive:
             event = one_of([action for action in self.theory.actions.values() if from_operator(self.theory, action)])
             reports = "" if event is None else f"an exogenous action such as {event}, or "

@@ -24,12 +24,12 @@ def read_source(path: str | Path, empty: str = DOMAIN_LINE) -> Source:
         raise _unreadable(name, "a file has a name")
     try:
         with Path(path).open("rb") as file:
-            return read_stream(name, file)
+            return read_stream(name, file, empty)
     except (OSError, ValueError) as error:
         raise _unreadable(name, _reason(error)) from None
 
 
-def read_stream(name: str, stream: BinaryIO) -> Source:
+def read_stream(name: str, stream: BinaryIO, empty: str = DOMAIN_LINE) -> Source:
     """The text of an open file, as ``read_source`` has it."""
     data = stream.read(LARGEST + 1)
     if len(data) > LARGEST:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from golc.runtime.rcxsim.machine.sounds import SYSTEM_SOUNDS
 from golc.runtime.rcxsim.surroundings import OPEN, Button, Mode
-from golc.runtime.rcxsim.world.sounds import SYSTEM_SOUNDS
 
 if TYPE_CHECKING:
     from tests.world.conftest import Lab, MakeLab
@@ -82,7 +82,7 @@ def test_on_a_sound_each_time_it_is_made(lab: MakeLab) -> None:
     assert presses(robot, 1) == []
     play(robot, UP)
     assert presses(robot, 1) == [2.5]
-    assert robot.told("sound") == [(0.0, "up"), (1.0, "down"), (1.0, "tone"), (2.0, "up")]
+    assert robot.told("plays") == [(0.0, "up"), (1.0, "down"), (1.0, "tone"), (2.0, "up")]
 
 
 @pytest.mark.parametrize(("which", "pressed"), [("", [0.5, 1.5, 2.5]), (" 2", [0.5]), (" low_beep", [])])

@@ -13,7 +13,7 @@ import pytest
 
 from golc.diagnostics import Source
 from golc.runtime.rcxsim.world.geometry import distance
-from golc.runtime.rcxsim.world.picture import picture
+from golc.runtime.rcxsim.world.picture import draw
 from golc.runtime.rcxsim.world.worldfile import parse_world
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ COLOURS = re.compile(r"hsl\((\d+),")
 
 
 def drawn(robot: Lab) -> ElementTree.Element:
-    return ElementTree.fromstring(picture(robot.world.scene, robot.world.record, robot.world.pose))
+    return ElementTree.fromstring(draw(robot.world.scene, robot.world.record, robot.world.pose))
 
 
 def path(svg: ElementTree.Element) -> list[list[tuple[float, float]]]:
@@ -133,7 +133,7 @@ def test_what_happened_is_marked_with_its_times(lab: MakeLab) -> None:
     robot.wait(3)
     svg = drawn(robot)
     told = [title.text for text in svg.iter(SVG + "text") for title in text.iter(SVG + "title")]
-    assert told == ["1.0 s: sound tone\n1.5 s: sound tone", "2.0 s: put at station A_1, facing 24", "2.5 s: press run"]
+    assert told == ["1.0 s: plays tone\n1.5 s: plays tone", "2.0 s: put at station A_1, facing 24", "2.5 s: press run"]
 
 
 def test_names_of_any_language(lab: MakeLab) -> None:
@@ -146,7 +146,7 @@ def test_a_long_run_does_not_fill_the_memory(lab: MakeLab) -> None:
     robot.drive(8, 8)
     robot.wait(150)
     assert sum(map(len, robot.world.record.paths)) < 20_010
-    assert len(picture(robot.world.scene, robot.world.record, robot.world.pose)) < 20_000
+    assert len(draw(robot.world.scene, robot.world.record, robot.world.pose)) < 20_000
 
 
 def test_a_robot_that_never_moved(lab: MakeLab) -> None:
@@ -157,5 +157,5 @@ def test_the_delivery_world_is_drawn(lab: MakeLab) -> None:
     delivery = Path(__file__).parent.parent.parent / "examples/delivery/delivery.toml"
     robot = lab()
     scene = parse_world(Source("delivery.toml", delivery.read_text()))
-    svg = ElementTree.fromstring(picture(scene, robot.world.record, robot.world.pose))
+    svg = ElementTree.fromstring(draw(scene, robot.world.record, robot.world.pose))
     assert texts(svg) == ["1", "2", "3", "4", "5", "6"]

@@ -20,7 +20,7 @@ PATH_COLOURS = 24
 """So many parts of the path have colours of their own, from the first to the last."""
 FIRST_HUE, LAST_HUE = 210, 0
 """Blue in the beginning, red in the end."""
-SHOWN = {"sound": "♪", "press": "●", "put": "✚", "lift": "↑", "touches": "✖"}
+SHOWN = {"plays": "♪", "press": "●", "put": "✚", "lift": "↑", "touches": "✖"}
 """What happens with a mark, and the mark."""
 
 
@@ -31,7 +31,7 @@ class _Box(NamedTuple):
     top: float
 
 
-def picture(scene: Scene, record: Record, pose: Pose) -> str:
+def draw(scene: Scene, record: Record, pose: Pose) -> str:
     """The text of an SVG file; ``pose`` is where the robot is in the end."""
     record.end()
     paths = record.paths

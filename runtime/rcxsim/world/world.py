@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import degrees
 
+from golc.runtime.rcxsim.machine.sounds import SYSTEM_SOUNDS
 from golc.runtime.rcxsim.surroundings import OUTPUTS, Button, Mode, Output, Tone
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.rcxsim.world.drive import Drive
@@ -19,7 +20,6 @@ from golc.runtime.rcxsim.world.robot import SECOND
 from golc.runtime.rcxsim.world.scene import Scene, pose_at_station
 from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, SOUNDS
 from golc.runtime.rcxsim.world.senses import Senses
-from golc.runtime.rcxsim.world.sounds import SYSTEM_SOUNDS
 
 
 class World:
@@ -98,7 +98,7 @@ class World:
         """The brick begins to play some tones: perhaps one of its own sounds."""
         self.advance(now)
         number = SYSTEM_SOUNDS.index(tuple(tones)) if tuple(tones) in SYSTEM_SOUNDS else None
-        self._happen("sound", "tone" if number is None else SOUNDS[number])
+        self._happen("plays", "tone" if number is None else SOUNDS[number])
         self._people.heard(number, self.scene.station_at(self.pose), self._now)
 
     def _stop_or_go(self) -> None:
