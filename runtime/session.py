@@ -26,7 +26,8 @@ from golc.runtime.loop.inbox import Inbox
 from golc.runtime.loop.inbox import Source as EventSource
 from golc.runtime.loop.policy import OnImpossible, OnSurprise, Policy
 from golc.runtime.observers.journal import Journal
-from golc.runtime.observers.trace import BOLD, DIM, MARGIN, Style, Trace, summary
+from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace, summary
+from golc.runtime.observers.whereabouts import Whereabouts
 from golc.runtime.signals import ending_on_signals
 from golc.runtime.sources.exogenous import COMMANDS, Terminal, Timetable, from_operator
 from golc.runtime.sources.listener import Listener
@@ -38,8 +39,7 @@ from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
 if TYPE_CHECKING:
-    from golc.runtime.rcxsim.process import BrickProcess
-    from golc.runtime.standin import Setting
+    from golc.runtime.standin import Place, RobotInWorld
 
 SIMULATED = "sim"
 """The port that stands for a simulated brick."""
@@ -102,7 +102,7 @@ class _Session:
         self.stack = stack
         self.inbox = Inbox()
         self.maps = brick_maps(theory)
-        self.brick: BrickProcess | None = None
+        self.robot: RobotInWorld | None = None
         self.executable = executable(theory, program.action, program.args)
         self.dynamics = self.executable.dynamics
         self.stdin = _descriptor()
@@ -120,10 +120,10 @@ class _Session:
         policy = self.policy(clock)
         self.executive = Executive(self.executable, Router(devices, self.theory), self.inbox, sources, policy, clock)
         self.executive.observers += [timetable.observe, *observers]
+        if self.robot is not None:
+            self.executive.observers.append(Whereabouts(self.robot.whereabouts, self.say))
         self.greet()
         outcome = self.executive.run()
-        if self.brick is not None and (said := self.brick.close()):
-            self.say(said)
         if pending := timetable.pending:
             self.say(f"the schedule still had {pending} event{'' if pending == 1 else 's'} to come")
         return outcome
@@ -146,27 +146,36 @@ class _Session:
             return None
         if not self.simulated:
             return Link(settings.port or "", settings.speed)
-        from golc.runtime.rcxsim.process import BrickOptions
-        from golc.runtime.standin import stand_in
+        if self.place.world is not None:
+            return self.link_to_robot(self.place.world)
+        from golc.runtime.rcxsim.process import BrickOptions, spawn
 
         options = BrickOptions(
-            speed=settings.speed,
-            seed=settings.seed,
-            events=settings.events,
-            constants=settings.constants,
-            picture=settings.picture,
+            speed=settings.speed, seed=settings.seed, events=settings.events, constants=settings.constants
         )
-        self.brick = stand_in(self.theory, self.maps, self.setting, options, self.stack)
-        return Link(self.brick.port, settings.speed)
+        brick = self.stack.enter_context(spawn(self.theory.source.name, options))
+        return Link(brick.port, settings.speed)
+
+    def link_to_robot(self, world: Path) -> Link:
+        """The way to a brick that is simulated in a world."""
+        from golc.runtime.rcxsim.trace import Trace as BrickTrace
+        from golc.runtime.standin import RobotInWorld
+
+        [actions] = self.maps.values()
+        settings, trace = self.settings, BrickTrace(self.tell_fault)
+        self.robot = robot = RobotInWorld(self.theory, actions, world, settings.speed, settings.seed, trace)
+        if settings.picture is not None:
+            self.stack.enter_context(robot.drawn(settings.picture))
+        return Link(str(world), settings.speed, robot.transport)
 
     @cached_property
-    def setting(self) -> Setting:
+    def place(self) -> Place:
         """Where the brick is simulated, if it is."""
-        from golc.runtime.standin import Setting, setting
+        from golc.runtime.standin import Place, place
 
         if not self.simulated:
-            return Setting(None)
-        return setting(self.theory, self.maps, self.settings.world, self.settings.events is not None)
+            return Place(None)
+        return place(self.theory, self.maps, self.settings.world, self.settings.events is not None)
 
     @property
     def simulated(self) -> bool:
@@ -175,7 +184,7 @@ class _Session:
 
     def is_ours(self, event: Call) -> bool:
         """Whether a line of the events file is reported from here, and not by the simulated brick."""
-        if self.setting.world is not None:
+        if self.place.world is not None:
             return True
         return not (self.simulated and any(actions.handles(event.action, event.args) for actions in self.maps.values()))
 
@@ -217,14 +226,14 @@ class _Session:
         where = f"on {self.settings.port}" if self.settings.port and not self.simulated else ""
         if self.simulated:
             speed = "" if self.settings.speed == 1 else f", {self.settings.speed:g} times as fast as a real one"
-            world = self.setting.world
+            world = self.place.world
             where = "on a simulated brick" + (f" in {world}" if world else "") + speed
             where += "" if self.settings.port else " (no --port was given)"
         if self.voice.verbosity >= 0:
             title = self.voice.style.paint(BOLD, f"{self.theory.name}: {self.program}")
             self.voice.write(f"{MARGIN}{title} {where}".rstrip())
-        if self.setting.hint:
-            self.say(self.setting.hint)
+        if self.place.hint:
+            self.say(self.place.hint)
         if self.interactive:
             event = one_of([action for action in self.theory.actions.values() if from_operator(self.theory, action)])
             reports = "" if event is None else f"an exogenous action such as {event}, or "
@@ -234,6 +243,12 @@ class _Session:
         """Something good to know."""
         if self.voice.verbosity >= 0:
             self.voice.write(self.voice.style.paint(DIM, f"{MARGIN}{text}"))
+
+    def tell_fault(self, record: Mapping[str, object]) -> None:
+        """A simulated brick says what it does; what matters here is that its program has failed."""
+        if record["what"] == "fault":
+            text = "the brick has stopped its program: {task}, address {address}: {problem}".format(**record)
+            self.voice.write(self.voice.style.paint(RED, f"{MARGIN}{text}"))
 
     def ask(self, question: str) -> None:
         """Show a question, or a word about a wrong answer."""

@@ -1,22 +1,28 @@
 """The simulated brick that stands in for a real one where no port is given: in a world, or driven by the theory.
 
-A world is the better one: the compiled program drives the robot that it is for. That needs a world file, nqc, and
-behaviours that were written for that robot; the theory alone needs nothing.
+In a world the brick's compiled program drives the robot that it was written for. That needs a world file, and nqc; the
+theory alone needs nothing.
 """
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Mapping
-from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 
 from golc.diagnostics import DeviceError
 from golc.nqc.actionmap import ActionMap
 from golc.nqc.build import build
 from golc.nqc.toolchain import Target, find_nqc
-from golc.runtime.rcxsim.process import BrickOptions, BrickProcess, spawn
+from golc.runtime.rcxsim.inprocess import InProcess
+from golc.runtime.rcxsim.line import LineOptions
+from golc.runtime.rcxsim.machine import simulator
+from golc.runtime.rcxsim.machine.options import Firmware, Options
+from golc.runtime.rcxsim.trace import Trace
+from golc.runtime.rcxsim.world.picture import draw
+from golc.runtime.rcxsim.world.world import World
 from golc.runtime.rcxsim.world.worldfile import read_world
 from golc.theory.theory import BasicActionTheory
 
@@ -25,42 +31,63 @@ NO_WORLD = "none"
 
 
 @dataclass(frozen=True)
-class Setting:
+class Place:
     """Where the brick is simulated: in the world of a file, or by the theory; ``hint`` says how to get more."""
 
     world: Path | None
     hint: str = ""
 
 
-def setting(theory: BasicActionTheory, bricks: Mapping[str, ActionMap], world: str | None, scripted: bool) -> Setting:
+def place(theory: BasicActionTheory, bricks: Mapping[str, ActionMap], world: str | None, scripted: bool) -> Place:
     """The world that was named, or the file beside the domain that has its name and ends in ``.toml``.
 
     That one is taken only for a single brick, if no script says what happens, and if nqc is there.
     """
     if world is not None:
-        return Setting(None if world == NO_WORLD else Path(world))
+        return Place(None if world == NO_WORLD else Path(world))
     beside = Path(theory.source.name).with_suffix(".toml")
     if len(bricks) != 1 or scripted or not beside.is_file():
-        return Setting(None)
+        return Place(None)
     try:
         find_nqc()
     except DeviceError as error:
-        return Setting(None, f"with nqc, its program would drive the robot in {beside}: {error.help}")
-    return Setting(beside)
+        return Place(None, f"with nqc, the program of the brick would drive the robot in {beside}: {error.help}")
+    return Place(beside)
 
 
-def stand_in(
-    theory: BasicActionTheory, bricks: Mapping[str, ActionMap], where: Setting, options: BrickOptions, stack: ExitStack
-) -> BrickProcess:
-    """Start the simulated brick, which the stack ends.
+class RobotInWorld:
+    """A brick with the program of a domain's behaviours, in a world, at the end of a line in this process.
 
-    Raises UserError if the world or the brick's program is wrong, DeviceError if it cannot be started.
+    Raises UserError if the world or the program is wrong, DeviceError if the program cannot be compiled.
     """
-    path = Path(theory.source.name)
-    if where.world is not None:
-        read_world(where.world)  # wrong ones are told of here, where somebody reads it
-        [actions] = bricks.values()
-        folder = stack.enter_context(tempfile.TemporaryDirectory())
-        path = build(theory, actions, Target.RCX2, Path(folder)).path
-        options = replace(options, world=where.world, events=None, constants={})
-    return stack.enter_context(spawn(path, options))
+
+    def __init__(
+        self, theory: BasicActionTheory, actions: ActionMap, path: Path, speed: float, seed: int, trace: Trace
+    ) -> None:
+        self._world = World(read_world(path), seed, trace)
+        with tempfile.TemporaryDirectory() as folder:
+            image = build(theory, actions, Target.RCX2, Path(folder)).image
+        line, _ = simulator.build(Firmware.V2, image, self._world, Options(seed=seed), LineOptions(), trace)
+        self.transport = InProcess(line, speed, str(path))
+
+    def whereabouts(self) -> str:
+        """Where the robot is now."""
+        with self.transport.lock:
+            return self._world.whereabouts
+
+    @contextmanager
+    def drawn(self, path: Path) -> Iterator[None]:
+        """Draw the world from above into a file in the end, with the way of the robot until then, as SVG.
+
+        Raises DeviceError, in the beginning, if the file cannot be written.
+        """
+        try:
+            file = path.open("w", encoding="utf-8")
+        except OSError as error:
+            raise DeviceError(f"cannot write the picture {path}: {error.strerror}") from None
+        with file:
+            try:
+                yield
+            finally:
+                with self.transport.lock:
+                    file.write(draw(self._world.scene, self._world.record, self._world.pose))

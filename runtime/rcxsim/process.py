@@ -37,8 +37,6 @@ class BrickOptions:
     trace: Path | None = None
     echo: bool = True
     constants: Mapping[str, str] = field(default_factory=dict)
-    world: Path | None = None
-    picture: Path | None = None
 
     def arguments(self) -> list[str]:
         """The options on the command line."""
@@ -46,8 +44,6 @@ class BrickOptions:
         found += [f"--loss={self.loss}", f"--garble={self.garble}", "--echo" if self.echo else "--no-echo"]
         found += [] if self.events is None else [f"--events={self.events}"]
         found += [] if self.trace is None else [f"--trace={self.trace}"]
-        found += [] if self.world is None else [f"--world={self.world}"]
-        found += [] if self.picture is None else [f"--picture={self.picture}"]
         return found + [f"-D{name}={text}" for name, text in self.constants.items()]
 
 
@@ -66,9 +62,9 @@ class BrickProcess:
     def pid(self) -> int:
         return self._child.pid
 
-    def close(self) -> str:
-        """End the child and wait until it is gone; what it says in the end, the first time."""
-        return _end(self._child)
+    def close(self) -> None:
+        """End the child and wait until it is gone."""
+        _end(self._child)
 
     def __enter__(self) -> BrickProcess:
         return self
@@ -126,8 +122,7 @@ def _ready_line(child: subprocess.Popen[bytes], within: float) -> str:
     return text.decode(errors="replace").partition("\n")[0] if b"\n" in text else ""
 
 
-def _end(child: subprocess.Popen[bytes]) -> str:
-    """End a child; what it has said and nobody has read. Does nothing if it has been ended before."""
+def _end(child: subprocess.Popen[bytes]) -> None:
     assert child.stdin is not None and child.stdout is not None
     with contextlib.suppress(OSError):
         child.stdin.close()
@@ -138,7 +133,4 @@ def _end(child: subprocess.Popen[bytes]) -> str:
         except subprocess.TimeoutExpired:
             insist()
     child.wait()
-    if child.stdout.closed:
-        return ""
-    with child.stdout:
-        return child.stdout.read().decode(errors="replace").strip()
+    child.stdout.close()
