@@ -4,12 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 from math import degrees
+from pathlib import Path
 from typing import Any
 
 import pytest
 
-from golc.diagnostics import Source
+from golc.bytecode.image import Image
+from golc.diagnostics import Findings, Source
+from golc.loading import load
+from golc.nqc.build import build
+from golc.nqc.numbering import number_device
+from golc.nqc.toolchain import Target
+from golc.runtime.rcxsim.machine.machine import Machine
+from golc.runtime.rcxsim.machine.options import Firmware
 from golc.runtime.rcxsim.surroundings import Mode, Output, Tone
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.rcxsim.world.scene import Scene
@@ -90,5 +99,106 @@ def lab() -> MakeLab:
         trace = Trace(lambda record: records.append(dict(record)))
         text = f"[floor]\nlight = 50\n[robot]\n{build}{more}"
         return Lab(World(parse_world(Source("test.toml", text)), seed, trace), records)
+
+    return make
+
+
+DELIVERY = Path(__file__).parent.parent.parent / "examples/delivery"
+FIRMWARES = {Target.RCX: Firmware.V1, Target.RCX2: Firmware.V2}
+DONE, MORE_TIME, PROCEED, ASK, NOTHING = 64, 85, 82, 83, 84
+"""Messages of the classic protocol."""
+
+
+class Radio:
+    """Hears the messages of the brick."""
+
+    def __init__(self) -> None:
+        self.heard: list[int] = []
+
+    def send(self, payload: bytes, now: int) -> int:
+        self.heard.append(payload[1])
+        return now + 41_250
+
+
+class DeliveryRobot:
+    """The delivery robot with its compiled program; a host says numbers to it. Times are in simulated seconds."""
+
+    def __init__(self, world: str, image: Image, firmware: Firmware) -> None:
+        self.records: list[dict[str, Any]] = []
+        trace = Trace(lambda record: self.records.append(dict(record)))
+        self.world = World(parse_world(Source("delivery.toml", world)), 0, trace)
+        self._radio = Radio()
+        self._machine = Machine(firmware, self.world, self._radio, trace)
+        self._machine.load(image)
+        self._machine.start(0)
+        self.wait(0.5)
+
+    @property
+    def now(self) -> float:
+        return self._machine.now / 1e6
+
+    def wait(self, seconds: float) -> None:
+        self._machine.run(self._machine.now + round(seconds * 1e6))
+
+    def say(self, message: int) -> int:
+        """Send a message; the answer."""
+        before = len(self._radio.heard)
+        self._machine.hear(message)
+        for _ in range(300):
+            self.wait(0.01)
+            if len(self._radio.heard) > before:
+                self.wait(0.1)
+                return self._radio.heard[-1]
+        raise AssertionError(f"no answer to {message}")
+
+    def act(self, number: int) -> float:
+        """Have an action done; how long it took."""
+        began, answer = self.now, self.say(32 + number)
+        while answer == MORE_TIME:
+            answer = self.say(PROCEED)
+        assert answer == DONE
+        return self.now - began
+
+    def event(self, within: float) -> int | None:
+        """The number of the event that the brick reports next."""
+        end = self.now + within
+        while self.now < end:
+            self.wait(0.2)
+            if (digit := self.say(ASK)) != NOTHING:
+                assert self.say(PROCEED) == 32  # 48 + n and a last digit of 0
+                return digit - 48
+        return None
+
+    def told(self, what: str) -> list[str]:
+        return [record["of"] for record in self.records if record["what"] == what]
+
+
+@pytest.fixture(scope="session")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Target], Image]:
+    """The compiled program of the delivery robot."""
+    theory = load(DELIVERY / "delivery.gl")
+    findings = Findings()
+    actions = number_device(theory, theory.devices[0], findings)
+
+    @cache
+    def compiled(target: Target) -> Image:
+        return build(theory, actions, target, tmp_path_factory.mktemp("program")).image
+
+    return compiled
+
+
+MakeRobot = Callable[..., DeliveryRobot]
+
+
+@pytest.fixture
+def delivery_robot(program: Callable[[Target], Image]) -> MakeRobot:
+    """Makes a delivery robot in the world of the example, with some texts in the file replaced by others."""
+
+    def make(*changes: tuple[str, str], target: Target = Target.RCX2) -> DeliveryRobot:
+        text = (DELIVERY / "delivery.toml").read_text()
+        for old, new in changes:
+            assert old in text
+            text = text.replace(old, new)
+        return DeliveryRobot(text, program(target), FIRMWARES[target])
 
     return make
