@@ -93,7 +93,7 @@ class Code(Enum):
     DOMAIN = ("GL009", "the domain line is missing or out of place")
 
     # 010..049: names, types, declarations
-    UNSUPPORTED = ("GL010", "a part of the language that is not supported yet")
+    NO_FILE = ("GL010", "an import in a text that is no file")
     DUPLICATE = ("GL011", "a name is declared twice")
     UNKNOWN_NAME = ("GL012", "a name is not declared")
     UNKNOWN_ACTION = ("GL013", "an action or a procedure is not declared")

@@ -34,6 +34,7 @@ from golc.runtime.sources.listener import Listener
 from golc.runtime.sources.polling import Poller
 from golc.runtime.sources.schedule import Schedule, read_schedule
 from golc.theory.ground import Call, one_of, read_value
+from golc.theory.order import arranged
 from golc.theory.statements import Message
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
@@ -257,7 +258,11 @@ class _Session:
     def speak(self, message: Message, args: Args) -> str:
         """The text of a message now."""
         state, evaluate = self.executive.state, self.dynamics.knowing.evaluate
-        return "".join(part if isinstance(part, str) else show(evaluate(part, state, args)) for part in message.parts)
+        texts = []
+        for part in message.parts:
+            text = part if isinstance(part, str) else show(arranged(evaluate(part, state, args), part.type))
+            texts.append(text)
+        return "".join(texts)
 
     def show(self, what: str) -> str:
         """The state or the history as text."""

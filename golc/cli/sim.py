@@ -123,6 +123,12 @@ def _outages(
 @click.option(
     "--picture", type=click.Path(path_type=Path), metavar="FILE", help="Draw the world in the end, from above, as SVG."
 )
+@click.option(
+    "--steps",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Byte code: the same until the program has ended; after N op codes it is an error that it has not.",
+)
 @click.option("--listing", is_flag=True, help="Byte code: print the op codes as `nqc -L` does, and end.")
 @click.option("--until-stdin-closes", is_flag=True, hidden=True)
 @constants_option
@@ -149,6 +155,7 @@ def command(
     seconds: float | None,
     scene: Path | None,
     picture: Path | None,
+    steps: int | None,
     listing: bool,
     until_stdin_closes: bool,
     constants: Mapping[str, str],
@@ -174,10 +181,11 @@ def command(
     if byte_code:
         _refuse("a domain without --world", {"--events": events is not None})
         _refuse("a domain", {"-D": constants} if sim_machine.is_byte_code(file) else {})
-        program = {"--for": seconds is not None, "--listing": listing}
+        program: dict[str, object] = {"--for": seconds is not None, "--steps": steps, "--listing": listing}
         _refuse("a program: give a FILE", program if file is None else {})
     else:
-        given = {"--target": option, "--brick": settings, "--for": seconds is not None, "--listing": listing}
+        given: dict[str, object] = {"--target": option, "--brick": settings, "--for": seconds is not None}
+        given |= {"--steps": steps, "--listing": listing}
         _refuse("byte code, a FILE.nqc or FILE.rcx, or --world", given)
     _refuse("a world: give one with --world", {"--picture": picture is not None and scene is None})
     from golc.runtime.rcxsim.line import TOWER_SLEEPS_AFTER, LineOptions
@@ -194,16 +202,12 @@ def command(
         told = Trace(*readers)
         if file is None or byte_code:
             world = None if scene is None else _world(scene, seed, told)
-            machine = sim_machine.Simulation(
-                file, option, {"seed": seed, **settings}, world or Bench(), told, constants
-            )
-            if listing:
-                console.out("\n".join(machine.listing()))
-                return
-            if world is not None:
+            made = {"seed": seed, **settings}
+            machine = sim_machine.Simulation(file, option, made, world or Bench(), told, constants)
+            if world is not None and not listing:
                 stack.callback(_show, world, picture and stack.enter_context(_opened(picture)), console)
-            if seconds is not None:
-                console.out("\n".join(machine.run(seconds, options)))
+            if shown := machine.shown(listing, seconds, steps, options):
+                console.out("\n".join(shown))
                 return
             line, rest = machine.line(options), sim_machine.REST
         else:

@@ -161,6 +161,14 @@ class Simulation:
         """The line to the brick, whose program has been started."""
         return self._build(options)[0]
 
+    def shown(self, listing: bool, seconds: float | None, steps: int | None, options: LineOptions) -> list[str] | None:
+        """What is asked for that needs no port."""
+        if listing:
+            return self.listing()
+        if seconds is not None:
+            return self.run(seconds, options)
+        return None if steps is None else self.finish(steps, options)
+
     def listing(self) -> list[str]:
         """The op codes of the program."""
         from golc.bytecode.listing import listing
@@ -174,10 +182,24 @@ class Simulation:
         now = 0.0
         while now < seconds:
             now = min(now + SLICE, seconds)
-            line.advance(now)
-            if brick.error is not None:
-                raise brick.error
+            _advance(line, brick, now)
         return list(_standing(brick.machine, self._image))
+
+    def finish(self, steps: int, options: LineOptions) -> list[str]:
+        """Let time pass until the program has ended; how the brick stands then.
+
+        Raises MachineError if the program cannot be executed, LimitError if it has not ended after so many steps.
+        """
+        from golc.diagnostics import LimitError
+
+        line, brick = self._build(dataclasses.replace(options, sleep=None))
+        machine, now = brick.machine, 0.0
+        while machine.processor.running:
+            if machine.steps > steps:
+                raise LimitError(f"{'; '.join(_running(machine))}: the program has not ended after {steps} steps")
+            now += SLICE
+            _advance(line, brick, now)
+        return list(_standing(machine, self._image))
 
     def _build(self, options: LineOptions) -> tuple[Line, MachineBrick]:
         from golc.diagnostics import DeviceError
@@ -190,6 +212,17 @@ class Simulation:
             raise refused(self._path, str(error)) from None
 
 
+def _advance(line: Line, brick: MachineBrick, now: float) -> None:
+    line.advance(now)
+    if brick.error is not None:
+        raise brick.error
+
+
+def _running(machine: Machine) -> list[str]:
+    """Where each task is that is running."""
+    return [f"{task.code}, address {task.place}" for task in machine.processor.tasks if task.code is not None]
+
+
 def _standing(machine: Machine, image: Image | None) -> Iterator[str]:
     """What runs, what the motors do, the values of the variables."""
     from golc.bytecode.image import SYMBOL_OF_VARIABLE
@@ -197,8 +230,7 @@ def _standing(machine: Machine, image: Image | None) -> Iterator[str]:
     from golc.runtime.rcxsim.machine.values import VARIABLES
     from golc.runtime.rcxsim.surroundings import Mode
 
-    running = [str(task.code) for task in machine.processor.tasks if task.code is not None]
-    yield f"{machine.seconds:.3f} s: " + (f"{', '.join(running)} still running" if running else "no task is running")
+    yield f"{machine.seconds:.3f} s, {'; '.join(_running(machine)) or 'no task is running'}"
     for name, output in zip(NAMES, machine.outputs.now, strict=True):
         if output.mode is Mode.ON:
             yield f"motor {name} on, {'forward' if output.forward else 'reverse'}, power {output.power}"

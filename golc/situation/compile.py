@@ -40,7 +40,7 @@ from golc.theory.terms import (
     subterms,
 )
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
-from golc.theory.types import Collection, Interval, Type, Value, number
+from golc.theory.types import Interval, Type, Value, number
 
 FORMULA = "a formula"
 """What a formula is called where it is `none`."""
@@ -189,7 +189,7 @@ class Compiler:
                 constant += stride * place.positions[index][value]
                 continue
             text = self.expression(arg, cells, depth)
-            if not fits(arg.type, type_):
+            if not includes(type_, arg.type):
                 check = guards.Positions(place.positions[index], arg, place.fluent.name, type_)
                 text = f"{self.bind('position', check)}[{text}]"
             elif isinstance(type_, Interval):
@@ -207,7 +207,7 @@ class Compiler:
         """An expression for a term that fails unless its value belongs to a type."""
         text = self.expression(term, cells, depth)
         known, value = known_value(term, cells)
-        if fits(term.type, type_) or (known and value in type_):
+        if includes(type_, term.type) or (known and value in type_):
             return text
         return f"{self.bind('check', guards.check(type_, failure))}({text})"
 
@@ -391,16 +391,6 @@ def environment(depth: int) -> Cells:
 def variables(count: int) -> Cells:
     """The cells of parameters: Python variables of their own."""
     return tuple(Cell(f"v{level}") for level in range(count))
-
-
-def fits(inner: Type, outer: Type) -> bool:
-    """Whether the types alone prove that every value of the one belongs to the other."""
-    if inner.finite:
-        return includes(outer, inner)
-    if not inner.kinds <= outer.kinds or outer.finite:
-        return False
-    part, whole = strip_optional(inner), strip_optional(outer)
-    return not isinstance(part, Collection) or not isinstance(whole, Collection) or fits(part.element, whole.element)
 
 
 def leaves_open(theory: BasicActionTheory) -> bool:

@@ -17,6 +17,7 @@ from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
 from golc.theory import errors
 from golc.theory.evaluate import Env
+from golc.theory.order import arranged
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Binder, DefinedTerm, FluentTerm, StaticTerm, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Parameter
@@ -54,11 +55,14 @@ class Knowing:
         return self._settled(function, *args)
 
     def shown(self, term: Term, depth: int) -> Asked:
-        """The value of a term, or an ``Unknown``: for a message."""
+        """The value of a term, or an ``Unknown``, as it is to be written in a message."""
         function = self.compiler.term(term, depth)
-        if not self.compiler.uncertain:
-            return function
-        return lambda state, env: agreed(answer for _, answer in survey(state, lambda world: function(world, env)))
+
+        def asked(state: State, env: Env) -> Value:
+            answers = (answer for _, answer in survey(state, lambda world: function(world, env)))
+            return arranged(agreed(answers), term.type)
+
+        return asked
 
     def known_true(self, function: Asked, terms: Sequence[Term]) -> Asked:
         """Whether what a compiled function of some formulas answers is true in all worlds."""
@@ -113,10 +117,10 @@ class Knowing:
                 continue
             match part:
                 case Variable(name=name, level=level):
-                    values[name] = env[level]
+                    values[name] = arranged(env[level], part.type)
                 case FluentTerm(fluent=name, args=args) | DefinedTerm(definition=name, args=args):
                     of = tuple(self.evaluate(arg, state, env) for arg in args)
-                    values[show_call(name, of)] = self.evaluate(part, state, env)
+                    values[show_call(name, of)] = arranged(self.evaluate(part, state, env), part.type)
                 case StaticTerm():
                     continue
         return values

@@ -5,7 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeAlias, cast
 
-from golc.theory.types import Collection, Enumeration, Optional, Type, Value
+from golc.theory.types import (
+    Collection,
+    Enumeration,
+    InOrder,
+    Interval,
+    Optional,
+    Primitive,
+    Quoted,
+    Type,
+    Unknown,
+    Value,
+    rank,
+)
 
 Key: TypeAlias = Callable[[Any], Any]
 
@@ -24,8 +36,10 @@ def sort_key(type_: Type) -> Key | None:
             return lambda value: (False,) if value is None else (True, inner(value))
         case Collection(kind=kind, element=element):
             return _collection_key(kind == "set", sort_key(element))
-        case _:
+        case Primitive() | Interval():
             return None
+        case _:
+            return rank
 
 
 def _collection_key(is_set: bool, inner: Key | None) -> Key | None:
@@ -47,3 +61,24 @@ def elements(collection: Value, type_: Type) -> Sequence[Value]:
         return collection
     base = type_.base if isinstance(type_, Optional) else type_
     return sorted(cast(Iterable[Any], collection), key=sort_key(cast(Collection, base).element))
+
+
+def arranged(value: Value, type_: Type) -> Value:
+    """A value of a type as it is to be written: an equal one that knows the order of sets, and what are strings.
+
+    What is not known has its possible values in order.
+    """
+    if value is None or isinstance(value, int | str):
+        return value
+    whole = type_.base if isinstance(type_, Optional) else type_
+    if isinstance(value, Unknown):
+        values = sorted(cast(Iterable[Any], value.values), key=sort_key(type_))
+        return Unknown(tuple([arranged(each, type_) for each in values]))
+    if not isinstance(whole, Collection) or value not in whole:
+        return value
+    parts = [_beside(part, whole.element) for part in elements(value, whole)]
+    return InOrder.of(parts) if isinstance(value, frozenset) else tuple(parts)
+
+
+def _beside(value: Value, type_: Type) -> Value:
+    return Quoted(value) if isinstance(value, str) and "string" in type_.kinds else arranged(value, type_)

@@ -207,7 +207,7 @@ class Collection(Type):
         return frozenset({self.kind})
 
     def __str__(self) -> str:
-        return f"{self.kind}[{self.element}]"
+        return f"{self.kind}[{self.element}]" if self.element.kinds else f"empty {self.kind}"
 
 
 @dataclass(frozen=True)
@@ -215,6 +215,23 @@ class Unknown:
     """What is shown in place of a value that the agent does not know: the possible ones."""
 
     values: tuple[Value, ...]
+
+
+class InOrder(frozenset[Value]):
+    """A set to be written, with its elements in the order in which they are."""
+
+    order: tuple[Value, ...] = ()
+
+    @classmethod
+    def of(cls, order: Iterable[Value]) -> InOrder:
+        """The set of some elements."""
+        made = cls(order := tuple(order))
+        made.order = order
+        return made
+
+
+class Quoted(str):
+    """A string to be written in quotes."""
 
 
 NONE = Optional(Enumeration(()))
@@ -250,9 +267,9 @@ def show(value: Value) -> str:
         case Fraction(denominator=1):
             return show(value.numerator)
         case Fraction():
-            return _decimal(value)
+            return _decimal(value) if value.denominator > 1 else show(value.numerator)
         case frozenset():
-            return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
+            return "{" + ", ".join(map(_part, _in_order(value))) + "}"
         case tuple():
             return "[" + ", ".join(map(_part, value)) + "]"
         case _:
@@ -282,14 +299,18 @@ def _decimal(value: Fraction) -> str:
 
 
 def _part(value: Value) -> str:
-    """A value beside others: there a string that is no single word stands in quotes."""
-    if isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value):
+    """A value beside others: there a string that is no single word, or known to be no symbol, stands in quotes."""
+    if isinstance(value, Quoted) or (isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value)):
         return '"' + value.translate(ESCAPED) + '"'
     return show(value)
 
 
-def _rank(value: Value) -> tuple[int, Any]:
-    """What brings the elements of a set into an order where their type is not at hand."""
+def _in_order(value: frozenset[Value]) -> Iterable[Value]:
+    return value.order if isinstance(value, InOrder) else sorted(value, key=rank)
+
+
+def rank(value: Value) -> tuple[int, Any]:
+    """A key for values of any types: what brings the elements of a set into an order where their type says none."""
     match value:
         case None:
             return 0, 0
@@ -298,9 +319,9 @@ def _rank(value: Value) -> tuple[int, Any]:
         case int() | Fraction():
             return 2, value
         case frozenset():
-            return 4, sorted(map(_rank, value))
+            return 4, sorted(map(rank, value))
         case tuple():
-            return 5, tuple(map(_rank, value))
+            return 5, tuple(map(rank, value))
         case _:
             return 3, value
 
@@ -315,9 +336,9 @@ def writable(thing: object) -> object:
         case list() | tuple():
             return [writable(part) for part in thing]
         case frozenset():
-            return [writable(part) for part in sorted(thing, key=_rank)]
+            return [writable(part) for part in _in_order(thing)]
         case Fraction():
-            return _number(show(thing))
+            return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
             return show(thing)
         case _:

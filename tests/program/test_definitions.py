@@ -215,8 +215,9 @@ class Definitions:
         return self.final(self._unfolded(d, env, s), s, entered)
 
 
-CONDITIONS = ["x = 0", "x < 2", "not p", "on(1)", "exists n: digit. on(n)", "x % 2 = 1", "true", "false"]
-LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "never", "skip", "wait", "wait 5 s", "q(1)", "q(x)"]
+CONDITIONS = ["x = 0", "x < 2", "not p", "on(1)", "exists n: digit. on(n)", "x % 2 = 1", "x in todo", "true", "false"]
+LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "push(x % 4)", "never", "skip", "wait", "wait 5 s", "q(1)"]
+LEAVES += ["q(x)", "push(len(seen))"]
 PROCEDURES = """
 proc q(n: int):
     choose:
@@ -257,7 +258,11 @@ def lines(depth: int) -> st.SearchStrategy[list[str]]:
             inner.map(lambda block: ["within x + 1 s:", *block, "else:", "    a"]),
             inner.map(lambda block: ["for n: digit where on(n):", *block]),
             inner.map(lambda block: ["for k in 1..2, p2: bool:", "    if p2 = p:", "        act(k)", *block]),
+            inner.map(lambda block: ["for n in todo where n in seen or on(n):", *block]),
+            inner.map(lambda block: ["for n in seen, m in [n, x], b: bool:", "    if b:", "        act(m)", *block]),
             inner.map(lambda block: ["pick n: digit where on(n):", *block]),
+            inner.map(lambda block: ["pick n in todo where on(n):", *block]),
+            inner.map(lambda block: ["pick p2: bool, s in {todo, [x]}, n in s:", "    act(n)", *block]),
             inner.map(lambda block: ["pick m: digit:", "    off(m)", *block]),
             inner.map(lambda block: ["let y = x + 1:", "    act(y)", *block]),
             two.map(joined("choose", "or")),
@@ -269,6 +274,8 @@ def lines(depth: int) -> st.SearchStrategy[list[str]]:
                     *(f"    {line}" for c, block in hs for line in [f"on {c}:", *block]),
                     "    on some n: digit where on(n) and n > x:",
                     "        off(n)",
+                    "    on some n in seen, m in todo where n = m:",
+                    "        push(n)",
                 ]
             ),
         )

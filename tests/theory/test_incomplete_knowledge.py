@@ -44,7 +44,8 @@ def test_one_of_takes_terms_over_the_parameters(theory: Build) -> None:
 
 def test_one_value_is_a_choice_too(theory: Build) -> None:
     built = theory("fluent sure: 1..3 = one of [2]\n")
-    assert built.fluents["sure"].initial.among == Display((Literal(2, type=INT),), type=Collection("list", INT))
+    type_ = Collection("list", Interval(1, 3))
+    assert built.fluents["sure"].initial.among == Display((Literal(2, type=INT),), type=type_)
 
 
 def test_an_effect_chooses_among_terms_of_the_situation_before_it(theory: Build) -> None:

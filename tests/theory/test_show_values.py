@@ -31,6 +31,7 @@ def test_a_number_too_large_to_write_is_a_text_in_json() -> None:
         (Fraction(1, 2), "0.5"),
         (Fraction(-2005, 100), "-20.05"),
         (Fraction(1, 3), "1/3"),
+        (Fraction(4, 2), "2"),
         (Fraction(1, 2**200), f"1/{2**200}"),
         (Fraction(1 << 20_000, 3), "0x1000000000… (20001 bits)/3"),
         (frozenset({10, 9, None}), "{none, 9, 10}"),

@@ -39,7 +39,10 @@ OWN_PACKET, OWN_COMMUNICATION = 3, 0
 
 
 class Machine:
-    """A brick with its firmware, its programs and its clock, ``now``, in microseconds."""
+    """A brick with its firmware, its programs and its clock, ``now``, in microseconds.
+
+    ``steps`` counts the op codes that were executed, and the looks at the surroundings.
+    """
 
     def __init__(
         self, firmware: Firmware, surroundings: Surroundings, radio: Radio, trace: Trace, options: Options | None = None
@@ -47,6 +50,7 @@ class Machine:
         self.firmware = firmware
         self.options = options = options or Options()
         self.now = 0
+        self.steps = 0
         self.on = True
         self.slot = 0
         self.variables = [0] * VARIABLES
@@ -88,10 +92,12 @@ class Machine:
             if self.now >= self._look_at:
                 self._look(self._look_at)
                 self._look_at += self.options.look
+                self.steps += 1
             task = processor.ready(self.now)
             if task is None:
                 self.now = min(until, self._look_at, processor.wake())
                 continue
+            self.steps += 1
             try:
                 self.now += processor.step(task)
             except MachineError as fault:
@@ -100,8 +106,8 @@ class Machine:
                 raise
 
     def due(self) -> int:
-        """When it does something next."""
-        return max(self.now, min(self._look_at, self.processor.wake()))
+        """Until when to let time pass so that something happens."""
+        return max(self.now, min(self._look_at, self.processor.wake())) + 1
 
     @property
     def seconds(self) -> float:
