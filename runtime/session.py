@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from golc.diagnostics import Diagnostic, Findings, Source, Span
+from golc.diagnostics import DeviceError, Diagnostic, Findings, Source, Span
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
@@ -149,6 +149,8 @@ class _Session:
             return Link(settings.port or "", settings.speed)
         if self.place.world is not None:
             return self.link_to_robot(self.place.world)
+        if settings.picture is not None:
+            raise DeviceError("there is no world of which a picture could be drawn", help="name one with --world")
         from golc.runtime.rcxsim.process import BrickOptions, spawn
 
         options = BrickOptions(
