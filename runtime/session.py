@@ -143,14 +143,14 @@ class _Session:
     def link(self) -> Link | None:
         """The way to the bricks, if the domain has any; starts a simulated one where no port is given."""
         settings = self.settings
+        if self.place.world is None and settings.picture is not None:
+            raise DeviceError("there is no world of which a picture could be drawn", help="name one with --world")
         if not self.maps:
             return None
         if not self.simulated:
             return Link(settings.port or "", settings.speed)
         if self.place.world is not None:
             return self.link_to_robot(self.place.world)
-        if settings.picture is not None:
-            raise DeviceError("there is no world of which a picture could be drawn", help="name one with --world")
         from golc.runtime.rcxsim.process import BrickOptions, spawn
 
         options = BrickOptions(
@@ -176,7 +176,7 @@ class _Session:
         """Where the brick is simulated, if it is."""
         from golc.runtime.standin import Place, place
 
-        if not self.simulated:
+        if not self.simulated and self.maps:
             return Place(None)
         return place(self.theory, self.maps, self.settings.world, self.settings.events is not None)
 

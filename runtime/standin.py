@@ -41,10 +41,15 @@ class Place:
 def place(theory: BasicActionTheory, bricks: Mapping[str, ActionMap], world: str | None, scripted: bool) -> Place:
     """The world that was named, or the file beside the domain that has its name and ends in ``.toml``.
 
-    That one is taken only for a single brick, if no script says what happens, and if nqc is there.
+    That one is taken only for a single brick, if no script says what happens, and if nqc is there. Raises DeviceError
+    if a world was named and there is not one brick to be in it.
     """
+    if world == NO_WORLD:
+        return Place(None)
     if world is not None:
-        return Place(None if world == NO_WORLD else Path(world))
+        if len(bricks) != 1:
+            raise DeviceError(f"there is one brick in a world, but the domain has {', '.join(bricks) or 'none'}")
+        return Place(Path(world))
     beside = Path(theory.source.name).with_suffix(".toml")
     if len(bricks) != 1 or scripted or not beside.is_file():
         return Place(None)

@@ -111,6 +111,8 @@ def command(
     golc run examples/delivery/delivery.gl
     golc run examples/delivery/delivery.gl --port /dev/ttyUSB0 --journal today.jsonl
     """
+    if port not in (None, "sim") and (world is not None or picture is not None):
+        raise click.UsageError("--world and --picture are for a simulated brick, not for one at a port")
     from golc.loading import load
     from golc.runtime.loop.policy import OnImpossible, OnSurprise
     from golc.runtime.session import Settings, run_online

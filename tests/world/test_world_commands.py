@@ -154,6 +154,15 @@ def test_there_must_be_a_world_to_draw(
     assert complaint in capfd.readouterr().err
 
 
+def test_there_is_one_brick_in_a_world(room: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    two = "domain d\naction go\naction come\nproc control:\n    go\n    come\n"
+    two += "device rcx left:\n    0 go by call f\ndevice rcx right:\n    0 come by call f\n"
+    two += "    set range 1\n"
+    (room / "d.gl").write_text(two)
+    assert invoke(["run", "d.gl", "--world", "room.toml"]) == 4
+    assert "there is one brick in a world, but the domain has left, right" in capfd.readouterr().err
+
+
 def test_stubs_that_somebody_has_edited_are_what_drives(room: Path) -> None:
     domain = 'domain d\naction go\nproc control:\n    go\ndevice rcx "d.nqc":\n    0 go by call straight\n'
     (room / "d.gl").write_text(domain)
