@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import json
+import re
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
 
 from golc.cli import invoke
 from golc.nqc.toolchain import Target
+from golc.runtime.rcxsim.machine.options import Options, WhileSending
 
 Compile = Callable[[str, Target], bytes]
 Golc = Callable[..., tuple[int, str, str]]
@@ -203,3 +206,24 @@ def test_a_program_that_fails_is_told_and_the_brick_goes_on(
     assert complaint in child.stderr.readline()
     done = subprocess.run(["nqc", f"-S{path}", "-raw", "120000"], capture_output=True, check=False, timeout=60)
     assert done.returncode == 0
+
+
+def test_the_manual_names_every_choice_with_its_default() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "simulator.md").read_text(encoding="utf-8")
+    section = page[page.index("### What is known of the firmware") :]
+    table = dict(re.findall(r"^\| `(\w+)` \| (.*?) \|", section[: section.index("Chosen, too")], re.MULTILINE))
+    defaults = {field.name: field.default for field in fields(Options) if field.name not in ("seed", "op_time")}
+    assert table.pop("op_time") == "2000, or 2800 with firmware 2.0"
+    assert table == {name: shown(value) for name, value in defaults.items()}
+
+
+def shown(value: object) -> str:
+    match value:
+        case bool():
+            return "`yes`" if value else "`no`"
+        case WhileSending():
+            return f"`{value.value}`"
+        case tuple():
+            return ",".join(map(str, value))
+        case _:
+            return str(value)
