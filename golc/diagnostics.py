@@ -116,6 +116,12 @@ class Code(Enum):
     BINDING = ("GL030", "a binding does not fit its action")
     LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
 
+    EFFECT_CONFLICT = ("GL040", "two effects of an action may give one fluent two values")
+    EFFECT_FAILS = ("GL041", "an action can go wrong where it is possible")
+    INVARIANT_NOT_KEPT = ("GL042", "an action may break an invariant")
+    NEVER_POSSIBLE = ("GL043", "an action can never be possible")
+    NOT_DECIDED = ("GL049", "a property of the theory is not decided")
+
     # 050..059: initial values
     NO_INITIAL = ("GL050", "a fluent has no initial value")
     INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
@@ -152,6 +158,11 @@ class Code(Enum):
     TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
+
+    NEVER_FIRES = ("GL071", "an interrupt can never fire")
+    STUCK = ("GL072", "an action can never be possible where it stands")
+    CONSTANT = ("GL073", "a condition is always true or always false")
+    ENDLESS_LOOP = ("GL074", "nothing changes the condition of a loop")
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")

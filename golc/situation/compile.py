@@ -85,10 +85,15 @@ Cells = tuple[Cell, ...]
 
 
 class Compiler:
-    """Makes Python functions of the terms of one theory; statics, definitions and preconditions are made once."""
+    """Makes Python functions of the terms of one theory; statics, definitions and preconditions are made once.
 
-    def __init__(self, theory: BasicActionTheory, layout: Layout) -> None:
+    ``ask`` has the functions behind ``knows(φ)``, ``possible(φ)`` and ``known(e)``: of the function that evaluates what
+    stands inside, and of what that is to be given.
+    """
+
+    def __init__(self, theory: BasicActionTheory, layout: Layout, ask: Mapping[str, Callable[..., bool]] = ASK) -> None:
         self.theory = theory
+        self._ask = ask
         self.layout = layout
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
         self.uncertain = leaves_open(theory)
@@ -173,7 +178,7 @@ class Compiler:
                 return collections.made(self, term, cells, depth + 1)
             case Epistemic(kind=kind, body=body):
                 function, names = self._function_of(body, cells)
-                return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
+                return f"{self.bind('ask', self._ask[kind])}({', '.join([function, *names])})"
             case Before(body=body):
                 function, names = self._function_of(body, cells)
                 return f"{self.bind('before', before)}({', '.join([function, *names])})"
@@ -189,11 +194,14 @@ class Compiler:
                 constant += stride * place.positions[index][value]
                 continue
             text = self.expression(arg, cells, depth)
-            if not includes(type_, arg.type):
+            if isinstance(type_, Interval):
+                if not includes(type_, arg.type):
+                    failure = guards.argument_failure(arg, place.fluent.name, type_)
+                    text = f"{self.bind('check', guards.check(type_, failure))}({text})"
+                constant -= stride * type_.low
+            elif not includes(type_, arg.type):
                 check = guards.Positions(place.positions[index], arg, place.fluent.name, type_)
                 text = f"{self.bind('position', check)}[{text}]"
-            elif isinstance(type_, Interval):
-                constant -= stride * type_.low
             else:
                 text = f"{self.bind('position', place.positions[index])}[{text}]"
             parts.append(text if stride == 1 else f"{text}*{stride}")

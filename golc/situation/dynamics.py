@@ -323,10 +323,10 @@ def _signature(cells: Cells) -> str:
 def _may_conflict(action: Action) -> bool:
     """Whether two of an action's effects, or two bindings of one, might touch the same ground fluent."""
     fluents = [effect.fluent for effect in action.effects]
-    return len(set(fluents)) < len(fluents) or not all(_injective(effect) for effect in action.effects)
+    return len(set(fluents)) < len(fluents) or not all(is_injective(effect) for effect in action.effects)
 
 
-def _injective(effect: Effect) -> bool:
+def is_injective(effect: Effect) -> bool:
     """Whether different bindings certainly lead to different arguments: each bound variable is one of them."""
     args = {arg.level for arg in effect.args if isinstance(arg, Variable)}
     return all(binder.variable.level in args for binder in effect.binders)

@@ -13,7 +13,7 @@ def found(tmp_path: Path, text: str) -> list[tuple[str, str]]:
     """Message and marked text of what is found in fluents that are all used."""
     path = tmp_path / "trial.gl"
     path.write_text(f"domain trial\ntype digit = 0..9\n{text}action use(d: digit):\n    poss x(d) = x(0)\n")
-    return [(finding.message, finding.span.text) for finding in examine(path)[1]]
+    return [(finding.message, finding.span.text) for finding in examine(path).findings]
 
 
 @pytest.mark.parametrize("text", ["fluent x(n: digit): digit = 9 - n\n", "fluent x(n: digit) = n * n in {4, 9}\n"])

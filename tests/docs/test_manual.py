@@ -118,7 +118,7 @@ def test_domain_has_the_findings_that_the_page_shows(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     save_page(block, tmp_path)
-    _, found = examine(block.file)
+    found = examine(block.file).findings
     assert "\n\n".join(map(render, found)) == block.findings.rstrip()
 
 
@@ -134,7 +134,7 @@ def save_page(block: Block, folder: Path) -> None:
 def test_file_in_several_blocks_has_no_findings(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     save_page(block, tmp_path)
-    assert "\n\n".join(map(render, examine(block.file)[1])) == ""
+    assert "\n\n".join(map(render, examine(block.file).findings)) == ""
 
 
 WHOLE = [*(block for block in DOMAINS if not block.findings), *LONGEST]
