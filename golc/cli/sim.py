@@ -217,6 +217,8 @@ def command(
             stops.append(sys.stdin.fileno())
         port = stack.enter_context(contextlib.closing(_port(link, tcp)))
         console.out(port.description)
+        if file is None:
+            console.note("the brick is empty: nqc can send it a program")
         serve(line, port, stops, speed, rest)
 
 

@@ -52,15 +52,16 @@ def _itself(value: Value) -> Value:
     return value
 
 
-def elements(collection: Value, type_: Type) -> Sequence[Value]:
+def elements(collection: Value, type_: Type | None) -> Sequence[Value]:
     """The elements of a list as they stand, or those of a set in the order of the type of its elements.
 
-    ``type_`` is that of the collection; it may have the value ``none`` as well.
+    ``type_`` is that of the collection; it may have the value ``none`` as well. Without one the order is any.
     """
     if isinstance(collection, tuple):
         return collection
     base = type_.base if isinstance(type_, Optional) else type_
-    return sorted(cast(Iterable[Any], collection), key=sort_key(cast(Collection, base).element))
+    key = rank if base is None else sort_key(cast(Collection, base).element)
+    return sorted(cast(Iterable[Any], collection), key=key)
 
 
 def arranged(value: Value, type_: Type) -> Value:

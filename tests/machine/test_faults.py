@@ -140,8 +140,8 @@ def test_random_code_runs_or_is_an_error(image_of: MakeImage, robot: MakeRobot, 
         for type_, most in ((ChunkType.TASK, 4), (ChunkType.SUB, 3)):
             for number in range(most):
                 code = bytearray(b"".join(random_instruction(chance, 60) for _ in range(chance.randrange(25))))
-                for _ in range(chance.choice([0, 0, 1, 3])):
-                    code[chance.randrange(len(code) or 1) : 1] = chance.randbytes(1)
+                for _ in range(chance.choice([0, 0, 1, 3]) if code else 0):
+                    code[chance.randrange(len(code))] = chance.randrange(256)
                 program.machine.memory.store(0, type_, number, bytes(code))
         for _ in range(5):
             program.machine.start(0)
@@ -155,6 +155,26 @@ def test_random_code_runs_or_is_an_error(image_of: MakeImage, robot: MakeRobot, 
             program.bench.raw[:] = [chance.randrange(1024) for _ in range(3)]
     assert errors > 100
     assert ran > 100
+
+
+@pytest.mark.parametrize("target", list(Target))
+def test_a_damaged_image_is_refused_or_runs_or_is_an_error(
+    nqc: Callable[[str, Target], bytes], robot: MakeRobot, random_program: Callable[..., str], target: Target
+) -> None:
+    outcomes = set()
+    for seed in range(6):
+        image = nqc(random_program(seed, target), target)
+        for place in range(0, len(image), 3):
+            damaged = bytearray(image)
+            damaged[place] ^= 1 << random.Random(place).randrange(8)
+            try:
+                robot(bytes(damaged), target).run(0.3)
+                outcomes.add("ran")
+            except MachineError:
+                outcomes.add("failed")
+            except DeviceError:
+                outcomes.add("refused")
+    assert outcomes == {"ran", "failed", "refused"}
 
 
 @pytest.mark.parametrize("target", list(Target))

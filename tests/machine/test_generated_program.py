@@ -210,3 +210,16 @@ def test_a_brick_that_is_switched_off_and_on_again_begins_anew(robot: Callable[.
     assert there.motors() == "---"
     there.wait(1)
     assert there.host.perform(SIGNAL) == 0
+
+
+@pytest.mark.parametrize(("target", "most"), [(Target.RCX, 0.19), (Target.RCX2, 0.23)])
+def test_a_poll_takes_the_air_time_and_a_few_op_codes(robot: Callable[..., Robot], target: Target, most: float) -> None:
+    there = robot(target)
+    there.wait(1)
+    times = []
+    for _ in range(40):
+        start = there.port.now()
+        assert there.host.poll() is None
+        times.append(there.port.now() - start)
+        there.wait(0.037)
+    assert 0.0825 < min(times) <= max(times) < most
