@@ -174,6 +174,7 @@ class Code(Enum):
     NO_END = ("GL087", "a behaviour is started and nothing tells its end")
     NQC_NAME = ("GL088", "a name that NQC does not take")
     DEVICE_SETTING = ("GL089", "a setting of a device makes no sense")
+    IMAGE = ("GL090", "a compiled program cannot be loaded")
     MESSAGE_RANGES = ("GL092", "two ranges of messages overlap")
     ARGUMENT_NUMBER = ("GL093", "an argument that a behaviour cannot be given")
     NQC_REFUSED = ("GL094", "the NQC compiler refuses the program")

@@ -21,7 +21,7 @@ from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
 from golc.theory.fitting import describe, includes
-from golc.theory.order import arranged
+from golc.theory.order import spelt
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
@@ -75,7 +75,7 @@ class Dynamics:
     def initial(self, given: Mapping[int, Value] = MappingProxyType({})) -> State:
         """The initial state; ``given`` are values of slots that replace those of the theory."""
         with deep_recursion(EVALUATION):
-            return initial_state(self.interpreter, given)
+            return initial_state(self.interpreter, self.compiler, given)
 
     def possible(self, state: State, action: str, args: Args) -> bool:
         """Whether the action's preconditions are known to hold."""
@@ -174,13 +174,13 @@ class Dynamics:
     def value(self, state: State, fluent: str, args: Args = ()) -> Value:
         """The value of a ground fluent; an ``Unknown`` if the worlds disagree."""
         place = self.layout.places[fluent]
-        return arranged(shown(state)[place.slot(args)], place.fluent.type)
+        return spelt(shown(state)[place.slot(args)], place.fluent.type)
 
     def values(self, state: State) -> Iterator[tuple[tuple[str, Args], Value]]:
         """Each ground fluent, as name and arguments, with its value or an ``Unknown``, as they are to be written."""
         fluents = self.theory.fluents
         for (name, args), value in zip(self.layout.ground_fluents, shown(state), strict=True):
-            yield (name, args), arranged(value, fluents[name].type)
+            yield (name, args), spelt(value, fluents[name].type)
 
     def show(self, state: State) -> dict[str, Value]:
         """Each ground fluent as text with its value or an ``Unknown``."""
@@ -189,7 +189,7 @@ class Dynamics:
     def call(self, action: str, args: Args) -> str:
         """A ground action as text."""
         parameters = self.theory.actions[action].parameters
-        return show_call(action, [arranged(arg, p.type) for arg, p in zip(args, parameters, strict=True)])
+        return show_call(action, [spelt(arg, p.type) for arg, p in zip(args, parameters, strict=True)])
 
     def misfit(self, action: str, args: Args) -> str | None:
         """What is wrong with the arguments of a ground action, or none: their number or their types."""

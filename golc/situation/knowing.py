@@ -17,7 +17,7 @@ from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
 from golc.theory import errors
 from golc.theory.evaluate import Env
-from golc.theory.order import arranged
+from golc.theory.order import arranged, spelt
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Binder, DefinedTerm, FluentTerm, StaticTerm, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Parameter
@@ -117,10 +117,10 @@ class Knowing:
                 continue
             match part:
                 case Variable(name=name, level=level):
-                    values[name] = arranged(env[level], part.type)
+                    values[name] = spelt(env[level], part.type)
                 case FluentTerm(fluent=name, args=args) | DefinedTerm(definition=name, args=args):
                     of = tuple(self.evaluate(arg, state, env) for arg in args)
-                    values[show_call(name, of)] = arranged(self.evaluate(part, state, env), part.type)
+                    values[show_call(name, of)] = spelt(self.evaluate(part, state, env), part.type)
                 case StaticTerm():
                     continue
         return values

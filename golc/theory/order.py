@@ -77,9 +77,10 @@ def arranged(value: Value, type_: Type) -> Value:
         return Unknown(tuple([arranged(each, type_) for each in values]))
     if not isinstance(whole, Collection) or value not in whole:
         return value
-    parts = [_beside(part, whole.element) for part in elements(value, whole)]
+    parts = [spelt(part, whole.element) for part in elements(value, whole)]
     return InOrder.of(parts) if isinstance(value, frozenset) else tuple(parts)
 
 
-def _beside(value: Value, type_: Type) -> Value:
+def spelt(value: Value, type_: Type) -> Value:
+    """A value of a type as it is to be written where it stands beside a name or other values: a string in quotes."""
     return Quoted(value) if isinstance(value, str) and "string" in type_.kinds else arranged(value, type_)

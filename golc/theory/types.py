@@ -254,10 +254,13 @@ ESCAPED = str.maketrans({'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "{"
 
 
 def show(value: Value) -> str:
-    """A value as golc writes it: ``true``, ``none``, ``3``, ``0.5``, ``stopped``, ``{1, 2}``; a string as its text."""
+    """A value as golc writes it: ``true``, ``none``, ``3``, ``0.5``, ``stopped``, ``{1, 2}``; a string as its text,
+    unless it is known to be one."""
     match value:
         case None:
             return "none"
+        case Quoted():
+            return '"' + value.translate(ESCAPED) + '"'
         case Unknown(values=values):
             return _alternatives([show(each) for each in values[:MOST_ALTERNATIVES]], len(values))
         case bool():
@@ -267,7 +270,7 @@ def show(value: Value) -> str:
         case Fraction(denominator=1):
             return show(value.numerator)
         case Fraction():
-            return _decimal(value) if value.denominator > 1 else show(value.numerator)
+            return _decimal(value)
         case frozenset():
             return "{" + ", ".join(map(_part, _in_order(value))) + "}"
         case tuple():
@@ -299,10 +302,9 @@ def _decimal(value: Fraction) -> str:
 
 
 def _part(value: Value) -> str:
-    """A value beside others: there a string that is no single word, or known to be no symbol, stands in quotes."""
-    if isinstance(value, Quoted) or (isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value)):
-        return '"' + value.translate(ESCAPED) + '"'
-    return show(value)
+    """A value beside others: there a string that is no single word stands in quotes."""
+    is_word = not isinstance(value, str) or re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value)
+    return show(value if is_word else Quoted(value))
 
 
 def _in_order(value: frozenset[Value]) -> Iterable[Value]:

@@ -16,21 +16,31 @@ from golc.runtime.rcxsim.ports import Port
 STOPPING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-def serve(line: Line, port: Port, stops: Collection[int], speed: float) -> None:
+SLACK = 0.05
+"""Real seconds by which computing what has happened may take longer than it took to happen."""
+
+
+def serve(line: Line, port: Port, stops: Collection[int], speed: float, rest: float = 0.0) -> None:
     """Carry bytes between port and line until one of the descriptors in ``stops`` is readable or at its end.
 
-    ``speed``: how many of the line's seconds pass in one.
+    ``speed``: how many of the line's seconds pass in one; fewer if the machine that this runs on cannot keep up.
+    ``rest``: for how many real seconds it sleeps at least if nobody sends anything.
     """
-    start = time.monotonic()
+    start = before = time.monotonic()
     while True:
         due = line.due()
-        left = None if due is None else max(0.0, due / speed - (time.monotonic() - start))
+        left = None if due is None else max(rest, due / speed - (time.monotonic() - start))
         watched = port.watched()
         ready = select.select([*stops, *watched], [], [], left)[0]
         if any(descriptor in stops for descriptor in ready):
             return
         data = b"".join(port.read(descriptor) for descriptor in watched if descriptor in ready)
-        received = line.host_sent(data, (time.monotonic() - start) * speed)
+        now = time.monotonic()
+        received = line.host_sent(data, (now - start) * speed)
+        late = (time.monotonic() - now) - (now - before) - SLACK
+        if late > 0:
+            start += late  # without this it would have ever more to catch up with, and hear nobody meanwhile
+        before = now
         if received:
             port.write(received)
 

@@ -14,7 +14,14 @@ UGLY = "domain d   # a domain\nproc p :\n  a\n"
 CANONICAL = "domain d  # a domain\nproc p:\n    a\n"
 BROKEN = "domain d\nproc p:\n    if a\n        b\n"
 
+ROOT = Path(__file__).parents[2]
+WRITTEN = [*(ROOT / "examples").glob("*/*.gl"), *(ROOT / "tests" / "programs").glob("*.gl")]
+
 Captured = pytest.CaptureFixture[str]
+
+
+def test_the_files_of_the_project_are_in_canonical_layout(capsys: Captured) -> None:
+    assert (invoke(["fmt", "--check", *map(str, WRITTEN)]), capsys.readouterr().out) == (0, "")
 
 
 @pytest.fixture
