@@ -30,6 +30,9 @@ class Obligations:
         """A situation in which what must not happen does; none if there is none, or if that is not decided, which is
         a finding. ``what`` completes "… is not decided"."""
         answer = self._answer(question, what, span)
+        if isinstance(answer, Witness) and not answer.certain:
+            self._not_decided(Undecided("it depends on what the agent knows then"), what, span)
+            return None
         return answer if isinstance(answer, Witness) else None
 
     def is_impossible(self, question: Question, what: str, span: Span) -> bool:
@@ -40,10 +43,13 @@ class Obligations:
         self.asked += 1
         answer = self.prover.answer(question)
         if isinstance(answer, Undecided) and what:
-            self.undecided += 1
-            message = f"{what} is not decided: {answer.reason}"
-            self.findings.warning(Code.NOT_DECIDED, message, span, "not decided", answer.help)
+            self._not_decided(answer, what, span)
         return answer
+
+    def _not_decided(self, why: Undecided, what: str, span: Span) -> None:
+        self.undecided += 1
+        message = f"{what} is not decided: {why.reason}"
+        self.findings.warning(Code.NOT_DECIDED, message, span, "not decided", why.help)
 
     def error(
         self, code: Code, message: str, span: Span, marker: str, note: str, labels: tuple[Label, ...] = ()

@@ -32,6 +32,8 @@ class Case:
         self.cells: dict[int, Value] = {}
         self.decisions = decisions
         """What was decided so far, in order: which way, of how many."""
+        self.guesses = 0
+        """How often it was guessed what the agent knows. One guess may be right; several need not go together."""
         self._domains = domains
         self._ranges: dict[int, Range] = {}
         self._next = 0
@@ -45,6 +47,11 @@ class Case:
             self.decisions.append((0 if self._chance is None else self._chance.randrange(ways), ways))
         self._next += 1
         return self.decisions[self._next - 1][0]
+
+    def guess(self) -> bool:
+        """Decide something about what the agent knows."""
+        self.guesses += 1
+        return self.choose(2) == 0
 
     def __getitem__(self, slot: int) -> Value:
         slot = int(slot)

@@ -90,11 +90,13 @@ class Question:
 @dataclass(frozen=True)
 class Witness:
     """A situation that answers a question with yes: the values of the ground fluents that matter, and those of the
-    variables. ``error``: what goes wrong when something that was asked is evaluated there."""
+    variables. ``error``: what goes wrong when something that was asked is evaluated there. ``certain``: false if it was
+    guessed several times what the agent knows, which need not go together."""
 
     fluents: Mapping[str, Value]
     variables: tuple[Value, ...]
     error: ProgramError | None = None
+    certain: bool = True
 
     def __str__(self) -> str:
         return ", ".join(f"{name} = {show(value)}" for name, value in self.fluents.items()) or "any situation"
@@ -133,7 +135,7 @@ class Prover:
         undecided = None
         try:
             for number, (case, found) in enumerate(self._cases(question, domains)):
-                if found and (best is None or len(case.cells) < len(best.cells)):
+                if found and (best is None or _worth(case) < _worth(best)):
                     best, last = case, min(last, number + MORE_CASES)
                 if number >= last:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
@@ -191,7 +193,9 @@ class Prover:
         read = sorted(slot for slot in case.cells if slot < self.layout.size)
         fluents = {show_call(*self.layout.ground_fluents[slot]): case.cells[slot] for slot in read}
         numbers = range(self.layout.size, len(domains))
-        return Witness(fluents, tuple([values[n] if n in values else _any(domains[n]) for n in numbers]), error)
+        return Witness(
+            fluents, tuple([values[n] if n in values else _any(domains[n]) for n in numbers]), error, found.guesses < 2
+        )
 
     def _ask(self, question: Question, case: Case) -> bool:
         """Whether what is asked is so in a case."""
@@ -272,6 +276,11 @@ class _After:
         """Decide which of several ways things are."""
         return self._case.choose(ways)
 
+    def guess(self) -> bool:
+        """Decide something about what the agent knows, which is connected with what it knew before the action."""
+        self._case.guesses += 1
+        return self._case.guess()
+
 
 def domain(type_: Type) -> Domain:
     """What something of a type may be."""
@@ -282,6 +291,11 @@ def domain(type_: Type) -> Domain:
     if isinstance(type_, Interval) and size(type_) > MOST_CONCRETE:
         return Range(type_.low, type_.high)
     return type_.values if size(type_) <= MOST_CONCRETE else None
+
+
+def _worth(case: Case) -> tuple[bool, int]:
+    """What makes a witness worse: that it may be none, and its size."""
+    return case.guesses > 1, len(case.cells)
 
 
 def _any(domain: Domain) -> Value:
@@ -296,15 +310,15 @@ def _any(domain: Domain) -> Value:
 
 
 def _guess_knows(ask: Callable[..., Any], case: Any, *rest: Any) -> bool:
-    return bool(ask(case, *rest)) and case.choose(2) == 0
+    return bool(ask(case, *rest)) and bool(case.guess())
 
 
 def _guess_possible(ask: Callable[..., Any], case: Any, *rest: Any) -> bool:
-    return bool(ask(case, *rest)) or case.choose(2) == 0
+    return bool(ask(case, *rest)) or bool(case.guess())
 
 
 def _guess_known(ask: Callable[..., Any], case: Any, *rest: Any) -> bool:
-    return bool(case.choose(2) == 0)
+    return bool(case.guess())
 
 
 GUESS: Mapping[str, Callable[..., bool]] = {

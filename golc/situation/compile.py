@@ -261,7 +261,7 @@ class Compiler:
 
     def _function_of(self, term: Term, cells: Cells) -> tuple[str, list[str]]:
         """The name of a function that evaluates a term, and the names of what it is to be given."""
-        names = ["s", *dict.fromkeys(cell.text.partition("[")[0] for cell in cells if not cell.known)]
+        names = [*dict.fromkeys(["s", *(cell.text.partition("[")[0] for cell in cells if not cell.known)])]
         return self._define(", ".join(names), [f"return {self.expression(term, cells)}"]), names
 
     def constant(self, value: Value) -> str:

@@ -75,7 +75,7 @@ class Dynamics:
     def initial(self, given: Mapping[int, Value] = MappingProxyType({})) -> State:
         """The initial state; ``given`` are values of slots that replace those of the theory."""
         with deep_recursion(EVALUATION):
-            return initial_state(self.interpreter, given)
+            return initial_state(self.interpreter, self.compiler, given)
 
     def possible(self, state: State, action: str, args: Args) -> bool:
         """Whether the action's preconditions are known to hold."""

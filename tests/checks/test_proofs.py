@@ -151,6 +151,31 @@ CASES = {
         "proc control:\n    while gate = open:\n        a\n",
         [],
     ),
+    "effects on conditions about knowledge that exclude each other": (
+        "action look:\n    senses gate\n"
+        "action a:\n    causes x := 1 when known(gate)\n    causes x := 2 when not known(gate)\n",
+        [
+            (
+                "GL049",
+                12,
+                "whether these effects of `a` agree on `x` is not decided: it depends on what the agent knows then",
+            )
+        ],
+    ),
+    "an invariant about what is known afterwards": (
+        "invariant sure: known(x)\naction a:\n    causes x := 1\n",
+        [
+            (
+                "GL049",
+                9,
+                "whether `a` preserves invariant `sure` is not decided: it depends on what the agent knows then",
+            )
+        ],
+    ),
+    "a value outside its type where something is known": (
+        "action look:\n    senses gate\naction a:\n    poss knows(gate = open)\n    causes x := x + 1\n",
+        [("GL041", 12, "`a` can go wrong: `x` would be 4, which is outside `small` (0..3)")],
+    ),
     "what is known is as good as true": (
         "action look:\n    senses gate\naction a:\n    poss knows(gate = open) and gate = closed\n"
         "proc control:\n    look\n    a\n",
