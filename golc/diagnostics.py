@@ -175,6 +175,7 @@ class Code(Enum):
     NQC_NAME = ("GL088", "a name that NQC does not take")
     DEVICE_SETTING = ("GL089", "a setting of a device makes no sense")
     IMAGE = ("GL090", "a compiled program cannot be loaded")
+    WORLD = ("GL091", "a world file says what cannot be")
     MESSAGE_RANGES = ("GL092", "two ranges of messages overlap")
     ARGUMENT_NUMBER = ("GL093", "an argument that a behaviour cannot be given")
     NQC_REFUSED = ("GL094", "the NQC compiler refuses the program")

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from golc.runtime.rcxsim.line import Line, LineOptions
     from golc.runtime.rcxsim.ports import Port
     from golc.runtime.rcxsim.trace import Record, Trace
+    from golc.runtime.rcxsim.world.world import World
 
 TROUBLE = {
     "fault": "{task}, address {address}: {problem}; the program is stopped",
@@ -113,6 +114,16 @@ def _outages(
     help="Byte code: let so many simulated seconds pass at once, without a port, and show how the brick stands.",
 )
 @click.option(
+    "--world",
+    "scene",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Byte code, also that of a domain's behaviours: the floor, the robot and the people around the brick.",
+)
+@click.option(
+    "--picture", type=click.Path(path_type=Path), metavar="FILE", help="Draw the world in the end, from above, as SVG."
+)
+@click.option(
     "--steps",
     type=click.IntRange(1),
     metavar="N",
@@ -142,6 +153,8 @@ def command(
     option: str | None,
     settings: Mapping[str, Any],
     seconds: float | None,
+    scene: Path | None,
+    picture: Path | None,
     steps: int | None,
     listing: bool,
     until_stdin_closes: bool,
@@ -152,28 +165,32 @@ def command(
 
     FILE is a domain: the brick knows the theory only, never the program: it does what it is told, takes a while for
     it, senses, and reports exogenous actions, by the script of --events or by chance. Or FILE is a program, .nqc or
-    .rcx: the brick executes its byte code. Without FILE the brick is empty and waits for `nqc -d`.
+    .rcx: the brick executes its byte code. Without FILE the brick is empty and waits for `nqc -d`. With --world also a
+    domain's behaviours are compiled, and their robot drives.
 
     Prints one line, `pty PATH` or `tcp HOST:PORT`, when it is ready, and ends on Ctrl-C.
 
     \b
     golc sim examples/delivery/delivery.gl --pty /tmp/brick --speed 5 &
     golc run examples/delivery/delivery.gl --port /tmp/brick --speed 5
-    golc sim robot.nqc --for 10
+    golc sim robot.nqc --world room.toml --for 10 --picture way.svg
     """
     if link is not None and tcp is not None:
         raise click.UsageError("--pty and --tcp exclude each other")
-    byte_code = sim_machine.is_byte_code(file)
+    byte_code = sim_machine.is_byte_code(file) or scene is not None
     if byte_code:
-        _refuse("a domain", {"--events": events is not None, "-D": bool(constants)})
+        _refuse("a domain without --world", {"--events": events is not None})
+        _refuse("a domain", {"-D": constants} if sim_machine.is_byte_code(file) else {})
         program: dict[str, object] = {"--for": seconds is not None, "--steps": steps, "--listing": listing}
         _refuse("a program: give a FILE", program if file is None else {})
     else:
         given: dict[str, object] = {"--target": option, "--brick": settings, "--for": seconds is not None}
         given |= {"--steps": steps, "--listing": listing}
-        _refuse("byte code, a FILE.nqc or FILE.rcx", given)
+        _refuse("byte code, a FILE.nqc or FILE.rcx, or --world", given)
+    _refuse("a world: give one with --world", {"--picture": picture is not None and scene is None})
     from golc.runtime.rcxsim.line import TOWER_SLEEPS_AFTER, LineOptions
     from golc.runtime.rcxsim.serve import serve, stopped_by_signals
+    from golc.runtime.rcxsim.surroundings import Bench
     from golc.runtime.rcxsim.trace import Trace, to_file
 
     sleeps = TOWER_SLEEPS_AFTER if sleep else None
@@ -184,7 +201,11 @@ def command(
             readers.append(to_file(stack.enter_context(_opened(trace))))
         told = Trace(*readers)
         if file is None or byte_code:
-            machine = sim_machine.Simulation(file, option, {"seed": seed, **settings}, told)
+            world = None if scene is None else _world(scene, seed, told)
+            made = {"seed": seed, **settings}
+            machine = sim_machine.Simulation(file, option, made, world or Bench(), told, constants)
+            if world is not None and not listing:
+                stack.callback(_show, world, picture and stack.enter_context(_opened(picture)), console)
             if shown := machine.shown(listing, seconds, steps, options):
                 console.out("\n".join(shown))
                 return
@@ -206,6 +227,22 @@ def _refuse(of: str, given: Mapping[str, object]) -> None:
     for name, value in given.items():
         if value:
             raise click.UsageError(f"{name} is for {of}")
+
+
+def _world(path: Path, seed: int, trace: Trace) -> World:
+    from golc.runtime.rcxsim.world.world import World
+    from golc.runtime.rcxsim.world.worldfile import read_world
+
+    return World(read_world(path), seed, trace)
+
+
+def _show(world: World, picture: Any, console: Console) -> None:
+    """Draw the world as it is in the end, and say where the robot is."""
+    from golc.runtime.rcxsim.world.picture import draw
+
+    if picture is not None:
+        picture.write(draw(world.scene, world.record, world.pose))
+    console.out(f"the robot is {world.whereabouts}")
 
 
 def _theory_line(

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from golc.runtime.rcxsim.line import Line, LineOptions
     from golc.runtime.rcxsim.machine.brick import MachineBrick
     from golc.runtime.rcxsim.machine.machine import Machine
+    from golc.runtime.rcxsim.surroundings import Surroundings
     from golc.runtime.rcxsim.trace import Trace
 
 REST = 0.0005
@@ -32,13 +33,18 @@ def is_byte_code(path: Path | None) -> bool:
     return path is None or path.suffix.lower() in (COMPILED, SOURCE)
 
 
-def read_program(path: Path, target: Target) -> Image:
-    """The image in a file, or of an NQC file compiled for a target; raises UserError with what is wrong."""
+def read_program(path: Path, target: Target, constants: Mapping[str, str]) -> Image:
+    """The image in a file, or that of an NQC file or of a domain's brick, compiled for a target.
+
+    Raises UserError with what is wrong; ``constants`` are those of a domain that are replaced.
+    """
     from golc.bytecode.image import read_image
     from golc.diagnostics import DeviceError
 
     if path.suffix.lower() == SOURCE:
         return _compile(path, target)
+    if not is_byte_code(path):
+        return _compile_domain(path, target, constants)
     try:
         return read_image(path.read_bytes())
     except OSError as error:
@@ -64,6 +70,20 @@ def _compile(path: Path, target: Target) -> Image:
         raise refused(path, "No such file or directory")
     with tempfile.TemporaryDirectory() as folder:
         return compile_program(path, (), target, Span(source, 0, 0), Path(folder) / "program.rcx").image
+
+
+def _compile_domain(path: Path, target: Target, constants: Mapping[str, str]) -> Image:
+    from golc.loading import load
+    from golc.nqc.build import build
+    from golc.runtime.rcxsim.theory.simulator import bricks
+
+    theory = load(path, constants)
+    first, *others = bricks(theory)
+    if others:
+        names = ", ".join(actions.device.name for actions in (first, *others))
+        raise refused(path, f"there is one brick in a world, and the domain has {names}")
+    with tempfile.TemporaryDirectory() as folder:
+        return build(theory, first, target, Path(folder)).image
 
 
 def settings(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, Any]:
@@ -115,17 +135,26 @@ def _number(text: str) -> int:
 class Simulation:
     """A machine with the program of a file, or an empty one; raises UserError if there is anything wrong with it."""
 
-    def __init__(self, path: Path | None, target: str | None, settings: Mapping[str, Any], trace: Trace) -> None:
+    def __init__(
+        self,
+        path: Path | None,
+        target: str | None,
+        settings: Mapping[str, Any],
+        surroundings: Surroundings,
+        trace: Trace,
+        constants: Mapping[str, str],
+    ) -> None:
         from golc.nqc.toolchain import Target
         from golc.runtime.rcxsim.machine.options import FIRMWARES, Firmware, Options
 
         chosen = next((one for one in Target if one.option == target), Target.RCX2)
         self._path = path
-        self._image = None if path is None else read_program(path, chosen)
+        self._image = None if path is None else read_program(path, chosen, constants)
         self._firmware = Firmware.V1 if chosen is Target.RCX else Firmware.V2
         if self._image is not None and target is None:
             self._firmware = FIRMWARES[self._image.target]
         self._options = Options(**settings)
+        self._surroundings = surroundings
         self._trace = trace
 
     def line(self, options: LineOptions) -> Line:
@@ -175,10 +204,9 @@ class Simulation:
     def _build(self, options: LineOptions) -> tuple[Line, MachineBrick]:
         from golc.diagnostics import DeviceError
         from golc.runtime.rcxsim.machine.simulator import build
-        from golc.runtime.rcxsim.surroundings import Bench
 
         try:
-            return build(self._firmware, self._image, Bench(), self._options, options, self._trace)
+            return build(self._firmware, self._image, self._surroundings, self._options, options, self._trace)
         except DeviceError as error:
             assert self._path is not None
             raise refused(self._path, str(error)) from None

@@ -145,7 +145,7 @@ def test_a_task_is_started_at_once_and_ends_with_an_event(robot: Callable[..., R
     there = robot(target)
     assert there.host.perform(START) == 0
     there.wait(0.5)
-    assert there.motors() == "f-f"
+    assert there.motors() == "f--"  # on the line it steers to the left, off it
     assert there.reported(2) is None
     there.see(STATION)
     assert there.reported(2) == ARRIVED
@@ -205,7 +205,7 @@ def test_a_brick_that_is_switched_off_and_on_again_begins_anew(robot: Callable[.
     there = robot(outages=((3.0, 4.0),))
     there.host.perform(START)
     there.wait(2.5)
-    assert there.motors() == "f-f"
+    assert there.motors() == "f--"  # on the line it steers to the left, off it
     there.wait(1)
     assert there.motors() == "---"
     there.wait(1)
