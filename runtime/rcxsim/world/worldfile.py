@@ -145,8 +145,6 @@ def _angle(table: Table, key: str) -> float:
 def _robot(table: Table, floor: Floor, sensors: Mapping[int, Sensor]) -> Robot:
     radius = table.number("radius", 20, LARGEST, 90.0)
     left, right = table.word("left", OUTPUTS), table.word("right", OUTPUTS)
-    if left == right is not None:
-        table.error("both wheels are driven by the same output", table.place("right"))
     robot = Robot(
         _start(table.table("start", needed=True), floor, radius),
         radius,
