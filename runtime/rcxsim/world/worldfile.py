@@ -27,7 +27,7 @@ FASTEST = 1_000.0
 """mm/s; within 5 ms no robot goes further than a part of its radius."""
 SOMEWHERE = [(0.0, 0.0), (1.0, 0.0)]
 """A line in the place of one that is wrong."""
-CURVE_WITHIN = 0.1
+CURVE_WITHIN = 0.25
 """mm by which the pieces of a smooth curve may be off."""
 BRICK_BUTTONS_HELP = "the buttons of the brick itself are " + ", ".join(BRICK_BUTTONS)
 _NAME = re.compile(r"\w[\w-]*")
