@@ -20,12 +20,12 @@ from golc.theory.types import BOOL, Value
 
 @dataclass(frozen=True)
 class Cause:
-    """``∃ binders. a = action(args) ∧ conditions``, the conditions evaluated from left to right in the situation s.
+    """``∃ variables. a = action(args) ∧ conditions``, the conditions evaluated from left to right in the situation s.
 
-    The binders of the action's own parameters come first; they have no collection to run over.
+    The action's own parameters come first among the variables.
     """
 
-    binders: tuple[Binder, ...]
+    variables: tuple[Variable, ...]
     action: str
     args: tuple[Term, ...]
     conditions: tuple[Term, ...]
@@ -113,9 +113,9 @@ class _Causing:
         equations = [(head, arg) for head, arg in arguments if not self.identified(arg, head)]
         given = isinstance(self.becomes, Variable) and self.identified(self.effect.value, self.becomes)
         demands = [demand for demand in demands if not self.is_constant(demand)]
-        binders = list(self.binders())
+        variables = tuple(self.variables())
         scope = len(self.parameters) + isinstance(self.becomes, Variable)
-        renaming = Renaming(self.terms, scope + len(binders))
+        renaming = Renaming(self.terms, scope + len(variables))
         args = tuple([self.terms[level] for level in range(len(self.action.parameters))])
         conditions = [
             *self.ranges,
@@ -124,7 +124,7 @@ class _Causing:
             *(equal(head, renaming(arg)) for head, arg in equations),
             *([] if given else self.value(renaming)),
         ]
-        return Cause(tuple(binders), self.action.name, args, tuple(conditions))
+        return Cause(variables, self.action.name, args, tuple(conditions))
 
     def identified(self, term: Term | Choice, head: Variable) -> bool:
         """Whether a term is a variable that can be called by the name of a variable of the axiom from now on."""
@@ -148,19 +148,19 @@ class _Causing:
     def binder(self, level: int) -> Binder:
         return self.effect.binders[level - len(self.action.parameters)]
 
-    def binders(self) -> Iterator[Binder]:
+    def variables(self) -> Iterator[Variable]:
         """The variables of the effect that are nothing yet become variables of the cause."""
         depth = len(self.parameters) + isinstance(self.becomes, Variable)
         for level, parameter in enumerate(self.action.parameters):
             if level not in self.terms:
                 self.terms[level] = variable = Variable(depth, parameter.name, type=parameter.type)
                 depth += 1
-                yield Binder(variable)
+                yield variable
         for binder in self.effect.binders:
             if binder.variable.level not in self.terms:
                 self.terms[binder.variable.level] = variable = replace(binder.variable, level=depth)
                 depth += 1
-                yield Binder(variable)
+                yield variable
 
     def elements(self, renaming: Renaming) -> Iterator[Term]:
         """That the variables which run over collections are elements of these."""

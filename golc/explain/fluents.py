@@ -133,25 +133,24 @@ class _Writer:
         """One cause a line."""
         if len(causes) == 1:
             return self.cause(causes[0])
-        found = [enclosed(self.cause(cause)) if cause.binders else self.cause(cause) for cause in causes]
+        found = [enclosed(self.cause(cause)) if cause.variables else self.cause(cause) for cause in causes]
         return separated([Nest(each) for each in found], Line(always=True), signs.OR)
 
     def cause(self, cause: Cause) -> Document:
         """``∃z. a = go(z) ∧ φ``; the variables that are no arguments of the action have their types beside them."""
-        inner = self.formulas.at(signs.SITUATION).extended([binder.variable.name for binder in cause.binders])
+        inner = self.formulas.at(signs.SITUATION).extended([variable.name for variable in cause.variables])
         action = inner.applied(signs.words(cause.action), [inner.term(arg) for arg in cause.args])
         last = len(cause.conditions) - 1
         conditions = [inner.term(part, NOT, place == last) for place, part in enumerate(cause.conditions)]
         body = conjunction([join(signs.ACTION, signs.sign(" = "), action), *conditions])
-        if not cause.binders:
+        if not cause.variables:
             return body
-        variables: list[Document] = []
-        for binder in cause.binders:
-            name = inner.names[binder.variable.level]
-            typed = binder.within is None and binder.variable not in cause.args
-            of_type = join(name, signs.COLON, type_text(binder.variable.type))
-            variables.append(of_type if typed else name)
-        return quantified(signs.EXISTS, separated(variables, signs.sign(", ")), body)
+        names: list[Document] = []
+        for variable in cause.variables:
+            name = inner.names[variable.level]
+            of_type = join(name, signs.COLON, type_text(variable.type))
+            names.append(name if variable in cause.args else of_type)
+        return quantified(signs.EXISTS, separated(names, signs.sign(", ")), body)
 
 
 def _not(gamma: Document | None) -> list[Document]:

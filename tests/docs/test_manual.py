@@ -7,8 +7,8 @@ How a page is read:
 - Any other ``golc`` block is a part of a file, a part of a program, or expressions, and has to parse.
 - A block with a name behind its language (``golc garden.gl``) is saved under that name for what stands below it, or
   appended to the file (``golc + garden.gl``), which then as a whole is a file without findings.
-- A ``console`` block with a ``$ golc`` line is a session: its commands are run, and their output is compared (see
-  ``Terminal``). What should not be run stands in a block of another language.
+- A ``console`` block with a ``$ golc`` or ``$ python`` line is a session: its commands are run, and their output is
+  compared (see ``Terminal``). What should not be run stands in a block of another language.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class Block:
 
     @property
     def is_session(self) -> bool:
-        return self.language == "console" and re.search(r"^\$ golc\b", self.text, re.MULTILINE) is not None
+        return self.language == "console" and re.search(r"^\$ (golc|python)\b", self.text, re.MULTILINE) is not None
 
     @property
     def file(self) -> str:

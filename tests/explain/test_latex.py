@@ -82,6 +82,10 @@ fluent f(x: t): int = 0
 fluent g(x: t): t = unknown
 define d := (count x: t where f(x) % 2 = 1. f(x) < 3) + (sum x: t. f(x) // 2 * -abs(f(x)))
 define e := d if f(a) != 1 and (f(b) <= 2 iff d >= 3) else min(1, d)
+fluent seen: set[t] = {}
+fluent route: list[t] = [b, a]
+fluent note: string = "50% {{a_b}}"
+define j := len(route) > 1 and route[0] in seen + {y for y: t where f(y) > 1} - {a} and [first(route)] = rest(route)
 define k(x: t) := knows(f(x) = 1) or possible(g(x) = a) implies known(g(x)) and x not in {a}
 action rest(x: t)
 action spin(x: t):

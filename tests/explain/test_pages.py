@@ -309,6 +309,27 @@ def test_terms_of_every_kind(theory: Theory) -> None:
     }
 
 
+def test_collections_strings_and_real_numbers(theory: Theory) -> None:
+    built = theory(
+        'type t = {a, b}\nfluent seen: set[t] = {}\nfluent route: list[t] = [a]\nfluent note: string = "a b"\n'
+        "fluent speed: real = 0.5\naction go(x: t):\n"
+        "    poss x in route and len(route) > 1 and route[0] != first(route)\n"
+        "    causes seen := seen + {y for y: t where y != x} - {a}\n    causes route := rest(route) + [x]\n"
+        '    causes note := "at {x}"\n    causes forall y in route. speed := 2.5 when y = x\n'
+    )
+    found = {name: sections(built, name)["Successor state axiom"][1] for name in ("seen", "route", "note", "speed")}
+    assert found == {
+        "seen": "γ(y, a, s) ≡ ∃x. a = go(x) ∧ y = seen(s) ∪ {y₁ | y₁: t, y₁ ≠ x} ∖ {a}",
+        "route": "γ(y, a, s) ≡ ∃x. a = go(x) ∧ y = rest(route(s)) ⌢ [x]",
+        "note": 'γ(y, a, s) ≡ ∃x. a = go(x) ∧ y = "at {x}"',
+        "speed": "γ(y, a, s) ≡ ∃x, y₁: t. a = go(x) ∧ y₁ ∈ route(s) ∧ y₁ = x ∧ y = 2.5",
+    }
+    assert sections(built, "go")["Action precondition axiom"] == [
+        "Poss(go(x), s) ≡ x ∈ route(s) ∧ len(route(s)) > 1 ∧ route(s)[0] ≠ first(route(s))"
+    ]
+    assert sections(built, "note")["Initially"] == ['note(S₀) = "a b"']
+
+
 def test_programs_of_every_kind(theory: Theory) -> None:
     built = theory(
         """type t = {a, b}
