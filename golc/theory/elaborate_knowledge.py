@@ -64,11 +64,12 @@ def _among(context: Context, scope: Scope, node: tree.Expr, type_: Type, what: s
         help_ = f"write `one of {{{node.span.text}}}`"
         context.error(Code.TYPE_MISMATCH, message, node.span, "not a set or list", help_)
         return None
-    if type_ == BOOL and not overlap(whole.element, BOOL):
-        help_ = "a fluent without a type is relational, true or false"
-        mismatch(context, found, describe(Collection(whole.kind, BOOL)), what, help_)
+    needed = Collection(whole.kind, type_)
+    if not overlap(whole.element, type_):
+        relational = "a fluent without a type is relational, true or false" if type_ == BOOL else None
+        mismatch(context, found, describe(needed), f"`one of` for {what}", relational)
         return None
-    return found if fits(context, found, Collection(whole.kind, type_), what) else None
+    return found if fits(context, found, needed, what) else None
 
 
 def initially(context: Context, nodes: Iterable[tree.Initially]) -> tuple[Term, ...]:

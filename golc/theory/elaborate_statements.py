@@ -16,7 +16,7 @@ from golc.theory.elaborate_values import parameter_scope
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import Literal
 from golc.theory.theory import Procedure
-from golc.theory.types import BOOL, INT
+from golc.theory.types import BOOL, INT, show
 
 
 def procedure_signature(context: Context, entry: Entry) -> Signature:
@@ -122,6 +122,8 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
 
 def _seconds(context: Context, scope: Scope, node: tree.Expr) -> typed.Duration:
     found = number(context, scope, node, "a time in seconds")
+    if isinstance(found, Literal) and isinstance(found.value, int | Fraction) and found.value < 0:
+        context.error(Code.OUTSIDE_TYPE, f"the time {show(found.value)} s is negative", node.span, "at least 0")
     return found.value if isinstance(found, Literal) and isinstance(found.value, Fraction) else found
 
 

@@ -379,7 +379,7 @@ def _quantifier(context: Context, scope: Scope, node: tree.Quantifier) -> Term:
     where = None if node.where is None else formula(context, inner, node.where, "`where`")
     logical = node.kind in ("exists", "forall", "count")
     body = (formula if logical else number)(context, inner, node.body, f"`{node.kind}`")
-    if any(binder.variable.type is BROKEN for binder in binders):
+    if BROKEN in [body.type, *[binder.variable.type for binder in binders]]:
         return broken(node.span)
     type_ = BOOL if node.kind in ("exists", "forall") else INT if logical else numeric_type([body])
     return Quantified(node.kind, binders, where, body, type=type_, span=node.span)

@@ -8,6 +8,8 @@ from golc.theory.fitting import BROKEN, collection, describe, may_be, overlap, s
 from golc.theory.terms import Comprehension, Display, Literal, Operation, Operator, Quantified, Term
 from golc.theory.types import BOOL, NONE, REAL, STRING, Type, show
 
+AGGREGATES = ("`sum`", "`min`", "`max`")
+
 
 def broken(span: Span) -> Term:
     """What stands for a term that could not be elaborated."""
@@ -58,8 +60,12 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     """A term, if it may be a number; ``what`` says for what one is needed."""
     if may_be(found.type, REAL):
         return found
-    text = '`"{…}{…}"` puts texts together' if found.type == STRING and what == "`+`" else None
-    mismatch(context, found, "a number", what, text or cure(found, REAL))
+    help_ = cure(found, REAL)
+    if found.type == STRING and what == "`+`":
+        help_ = '`"{…}{…}"` puts texts together'
+    elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES:
+        help_ = _parentheses(what.strip("`"))
+    mismatch(context, found, "a number", what, help_)
     return broken(found.span)
 
 
@@ -80,7 +86,7 @@ def cure(found: Term, needed: Type) -> str | None:
     if isinstance(found, Literal) and found.value is None:
         return f"the type `{needed}?` has the value `none`, too"
     if needed == BOOL and isinstance(found, Quantified):
-        return f"write `({found.kind} …) = …`: without parentheses `{found.kind}` takes in everything to its right"
+        return _parentheses(found.kind)
     if needed == BOOL:
         return f"compare it: `{shown(found)} = …`"
     if have and want and have.kind != want.kind and not have.element.kinds:
@@ -96,6 +102,10 @@ def cure(found: Term, needed: Type) -> str | None:
     if found.type == STRING and not {"string", "int", "real"} & needed.kinds:
         return "values of an enumeration stand without quotes"
     return None
+
+
+def _parentheses(kind: str) -> str:
+    return f"write `({kind} …) = …`: without parentheses `{kind}` takes in everything to its right"
 
 
 def shown(found: Term) -> str:

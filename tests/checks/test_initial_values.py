@@ -45,6 +45,16 @@ def test_values_inside_the_type_are_fine(tmp_path: Path, text: str) -> None:
             "the initial value of `x(9)` cannot be computed: `min` over nothing has no value",
             "min m: digit where m > n. m",
         ),
+        (
+            "fluent x(n: digit): digit = one of {n, n + 1}\n",
+            "the initial value 10 of `x(9)` is outside `digit` (0..9)",
+            "one of {n, n + 1}",
+        ),
+        (
+            "fluent x(n: digit): digit = one of [m for m: digit where m > n]\n",
+            "fluent `x(9)` is one of no values at first",
+            "one of [m for m: digit where m > n]",
+        ),
     ],
 )
 def test_the_first_wrong_instance_is_named(tmp_path: Path, text: str, message: str, marked: str) -> None:

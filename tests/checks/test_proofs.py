@@ -176,6 +176,11 @@ CASES = {
         "action look:\n    senses gate\naction a:\n    poss knows(gate = open)\n    causes x := x + 1\n",
         [("GL041", 12, "`a` can go wrong: `x` would be 4, which is outside `small` (0..3)")],
     ),
+    "what is known of a variable of the program": (
+        "fluent key: small = unknown\naction a(n: small):\n    causes x := n\n"
+        "proc control:\n    pick n: small where possible(key = n):\n        a(n)\n",
+        [],
+    ),
     "what is known is as good as true": (
         "action look:\n    senses gate\naction a:\n    poss knows(gate = open) and gate = closed\n"
         "proc control:\n    look\n    a\n",

@@ -314,8 +314,16 @@ def test_costs_and_times_may_be_real(theory: Build) -> None:
     assert second.seconds == FluentTerm("slow", (), type=REAL)
 
 
-def test_a_negative_cost_is_found(found: Build) -> None:
-    assert found("action go:\n    cost -0.5\n") == ["2:10 GL017 the cost -0.5 is negative"]
+def test_a_negative_cost_or_time_is_found(found: Build) -> None:
+    assert found("action go:\n    cost -0.5\nproc control:\n    wait 0.5 - 1 s\n") == [
+        "2:10 GL017 the cost -0.5 is negative",
+        "4:10 GL017 the time -0.5 s is negative",
+    ]
+
+
+def test_an_aggregate_that_takes_in_a_comparison_is_one_mistake(found: Build) -> None:
+    text = "fluent l: list[int] = []\ndefine it := 1 < 2 and min n in l. n = 2\n"
+    assert found(text) == ["2:36 GL016 `n = 2` is of type `bool`, but `min` needs a number"]
 
 
 def test_consts_may_be_replaced_by_values_that_fit(theory: Build, found: Build) -> None:

@@ -114,8 +114,6 @@ class Machine:
         """The clock, for a trace."""
         return self.now / 1e6
 
-    # Tasks, as op codes and requests start and stop them.
-
     def start(self, number: int) -> None:
         """Start a task from the top; one that is not there is not started."""
         if self.options.start_clears_variables and not self.processor.running:
@@ -156,8 +154,6 @@ class Machine:
         self._trace.tell(self.seconds, "program", slot=slot)
         if by_program and self.options.select_starts:
             self.start(0)
-
-    # Messages, the datalog, switching off.
 
     def heard(self) -> None:
         """A packet has come: the brick has something to do."""
@@ -239,8 +235,6 @@ class Machine:
             case Button.VIEW:
                 self.display.next()
 
-    # Looking at the surroundings.
-
     def _look(self, at: int) -> None:
         raws = self._surroundings.sense([sensor.powered for sensor in self.inputs], at)
         for sensor, raw in zip(self.inputs, raws, strict=True):
@@ -272,8 +266,6 @@ class Machine:
         if source == events.MESSAGE:
             return events.Reading(self.messages.buffer)
         return events.Reading(self.variables[source - events.COUNTERS.start])
-
-    # What the parts need of the whole.
 
     def _prepare(self, code: Code, place: int) -> Step:
         """Make the instruction at a place of some code ready."""

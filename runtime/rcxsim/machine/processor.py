@@ -41,7 +41,7 @@ class Processor:
 
     def wake(self) -> int:
         """When the next task has waited long enough."""
-        return min(task.wake for task in self.tasks)
+        return min([task.wake for task in self.tasks])
 
     def step(self, task: Task) -> int:
         """Execute one op code of a task; the microseconds that it takes, none at the end of its code.
