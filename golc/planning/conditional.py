@@ -114,13 +114,12 @@ def _always(weight: Number) -> bool:
 
 
 def _way(
-    found: Solved[P] | Stuck[P] | None, pair_of: Callable[[P], Pair], dynamics: Dynamics, dead_end: DeadEnd
+    found: Solved[P] | Stuck[P], pair_of: Callable[[P], Pair], dynamics: Dynamics, dead_end: DeadEnd
 ) -> Path | None:
     """What was found as a path; if nothing was, the dead end is told why."""
     if isinstance(found, Solved):
         return joined(found, lambda solved: _run(solved, pair_of, dynamics))
-    if found is not None:
-        _tell(dead_end, found, pair_of, dynamics)
+    _tell(dead_end, found, pair_of, dynamics)
     return None
 
 

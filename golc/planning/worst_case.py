@@ -65,7 +65,7 @@ def find(
     weigh: Weigh[P],
     allows: Callable[[Number], bool],
     place: Callable[[P], Hashable] = lambda pair: pair,
-) -> Solved[P] | Stuck[P] | None:
+) -> Solved[P] | Stuck[P]:
     """The first of the lightest plans with at least one step; otherwise the longest way to where there is none.
 
     ``allows``: whether a branch may weigh so much; ``place``: see ``and_or.first``. Raises ``LimitError`` at a limit.
