@@ -71,8 +71,10 @@ def find(
     ``allows``: whether a branch may weigh so much; ``place``: see ``and_or.first``. Raises ``LimitError`` at a limit.
     """
     graph = _Graph(problem, start, budget, weigh, allows)
-    graph.explore()
-    return first(graph, start, Budget(), place) if graph.is_solved else graph.stuck()
+    value = graph.explore()
+    if value is None:
+        return graph.stuck()
+    return first(graph, start, Budget(), place) if allows(value) else None
 
 
 _Step: TypeAlias = tuple[_Vertex[P], Foreseen, tuple[Value, ...]]
@@ -94,18 +96,14 @@ class _Graph(Generic[P]):
         self._number = count()
         self._heap: list[tuple[Number, int, _Vertex[P]]] = [(0, next(self._number), self._root)]
 
-    def explore(self) -> None:
-        """Expand what can be a part of the best plan."""
+    def explore(self) -> Number | None:
+        """Expand what can be a part of the best plan; what it weighs, none if there is none."""
         while self._heap and self._heap[0][0] <= self._root.value:
             _, _, vertex = heappop(self._heap)
             if vertex.edges is None:
                 self._expand(vertex)
                 self._improve(vertex)
-
-    @property
-    def is_solved(self) -> bool:
-        """Whether there is a plan."""
-        return self._root.value < math.inf
+        return None if isinstance(self._root.value, float) else self._root.value
 
     def stuck(self) -> Stuck[P]:
         """The longest of the shortest ways, through pairs that have no plan, to one where nothing can be done; if there

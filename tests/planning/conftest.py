@@ -9,7 +9,6 @@ from typing import Any
 import pytest
 
 from golc.cli import invoke
-
 from golc.diagnostics import Findings, Source
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
@@ -52,7 +51,7 @@ class Validity:
 
     def of_program(self, plan: Plan, procedure: str = "control", args: tuple[Any, ...] = ()) -> bool:
         """Whether some choices of the program lead through exactly these steps to its end."""
-        return self._executes(self.d.start(procedure, args), self.d.k.initial(), plan, 0)
+        return bool(self._executes(self.d.start(procedure, args), self.d.k.initial(), plan, 0))
 
     def of_goal(self, plan: Plan, goal: str) -> bool:
         """Whether the steps can be done, and lead to where a goal is known to hold."""
@@ -83,7 +82,7 @@ class Validity:
 
     def _is(self, step: dict[str, Any], label: tuple[Any, ...]) -> bool:
         kind, name, args = label if label[0] == "expected" else ("action", *label)
-        return step.get(kind) == name and step["args"] == json.loads(json.dumps(writable(args)))
+        return bool(step.get(kind) == name and step["args"] == json.loads(json.dumps(writable(args))))
 
     def _ways(self, plan: Plan, name: str, args: Any, before: Any, after: Any) -> list[tuple[Any, Plan]] | None:
         """What is known after the first step of a plan, by the results of sensing, each with the steps to go on with;

@@ -134,6 +134,12 @@ def test_a_bound_on_steps_counts_the_actions_of_each_branch() -> None:
     assert lightest({**graph, "q": [("d", "!")]}, steps=2) == "x(b!, d!)"
 
 
+def test_a_pair_that_is_near_in_one_branch_may_be_far_in_another() -> None:
+    graph = {"s": [("x", "pr")], "p": [("y", "r")], "r": [("z", "!")]}
+    assert first(graph, steps=3) == lightest(graph, steps=3) == "x(yz!, z!)"
+    assert first(graph, steps=2) == lightest(graph, steps=2) == "stuck"
+
+
 def test_why_there_is_no_plan() -> None:
     graph = {"s": [("x", "pq")], "p": [("y", "t"), ("z", "!")], "t": [("w", "u")], "u": [], "q": [("v", "r")], "r": []}
     for found in (

@@ -1,4 +1,4 @@
-"""Every plan that golc prints is an execution of its program in every possible world, and no other one passes for it."""
+"""Every plan that golc prints is an execution of its program in every possible world; others do not pass for one."""
 
 from __future__ import annotations
 
@@ -62,8 +62,8 @@ def test_plans_for_goals_are_valid(printed: Printed, validity: Any, options: lis
             assert validity(load(path, goal=goal), bool(options)).of_goal(plan, GOAL)
 
 
-# A walk through rooms with doors that may be shut, and a bell that may ring: whatever is sensed decides what comes next,
-# and nothing may be left out, done twice or done otherwise.
+# A walk through rooms with doors that may be shut, and bells that ring: what is sensed decides what comes next, and
+# nothing may be left out, done twice or done otherwise.
 HOUSE = """domain house
 type room = {hall, kitchen, cellar}
 type state = {open, shut}
