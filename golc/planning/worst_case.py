@@ -16,6 +16,7 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import Generic, TypeAlias
 
+from golc.diagnostics import LimitError
 from golc.planning.and_or import Option, P, Problem, Solved, Stuck, first
 from golc.planning.limits import Budget
 from golc.program.circles import CIRCLES, runs_in_circles
@@ -64,17 +65,23 @@ def find(
     budget: Budget,
     weigh: Weigh[P],
     allows: Callable[[Number], bool],
+    tell: Callable[[Stuck[P]], None] = lambda stuck: None,
     place: Callable[[P], Hashable] = lambda pair: pair,
-) -> Solved[P] | Stuck[P] | None:
-    """The first of the lightest plans with at least one step; otherwise the longest way to where there is none.
+) -> Solved[P] | None:
+    """The first of the lightest plans with at least one step; none if there is none.
 
-    ``allows``: whether a branch may weigh so much; ``place``: see ``and_or.first``. Raises ``LimitError`` at a limit.
+    ``tell`` hears of the longest way to where there is no plan. ``allows``: whether a branch may weigh so much;
+    ``place``: see ``and_or.first``. Raises ``LimitError`` at a limit.
     """
     graph = _Graph(problem, start, budget, weigh, allows)
-    value = graph.explore()
+    try:
+        value = graph.explore()
+    except LimitError:
+        tell(graph.stuck())
+        raise
     if value is None:
-        return graph.stuck()
-    return first(graph, start, Budget(), place) if allows(value) else None
+        tell(graph.stuck())
+    return first(graph, start, Budget(), place=place) if value is not None and allows(value) else None
 
 
 _Step: TypeAlias = tuple[_Vertex[P], Foreseen, tuple[Value, ...]]
