@@ -9,7 +9,8 @@ BIN = $(VENV)/bin
 demo: $(VENV)/ready nqc
 	$(BIN)/golc check examples/delivery/delivery.gl
 	$(BIN)/golc gen-nqc examples/delivery/delivery.gl --compile
-	$(BIN)/golc run examples/delivery/delivery.gl --events examples/delivery/demo.events --speed 10 --stop-when-idle 10
+	$(BIN)/golc run examples/delivery/delivery.gl --world examples/delivery/delivery.toml \
+		--events examples/delivery/requests.events --speed 20 --stop-when-idle 30 --picture examples/delivery/build/delivery.svg
 
 test: $(VENV)/ready nqc
 	$(BIN)/ruff format --check .

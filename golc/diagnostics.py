@@ -93,7 +93,7 @@ class Code(Enum):
     DOMAIN = ("GL009", "the domain line is missing or out of place")
 
     # 010..049: names, types, declarations
-    UNSUPPORTED = ("GL010", "a part of the language that is not supported yet")
+    NO_FILE = ("GL010", "an import in a text that is no file")
     DUPLICATE = ("GL011", "a name is declared twice")
     UNKNOWN_NAME = ("GL012", "a name is not declared")
     UNKNOWN_ACTION = ("GL013", "an action or a procedure is not declared")
@@ -115,6 +115,12 @@ class Code(Enum):
     DEVICE = ("GL029", "a device block says what its kind cannot do")
     BINDING = ("GL030", "a binding does not fit its action")
     LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
+
+    EFFECT_CONFLICT = ("GL040", "two effects of an action may give one fluent two values")
+    EFFECT_FAILS = ("GL041", "an action can go wrong where it is possible")
+    INVARIANT_NOT_KEPT = ("GL042", "an action may break an invariant")
+    NEVER_POSSIBLE = ("GL043", "an action can never be possible")
+    NOT_DECIDED = ("GL049", "a property of the theory is not decided")
 
     # 050..059: initial values
     NO_INITIAL = ("GL050", "a fluent has no initial value")
@@ -153,6 +159,11 @@ class Code(Enum):
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 
+    NEVER_FIRES = ("GL071", "an interrupt can never fire")
+    STUCK = ("GL072", "an action can never be possible where it stands")
+    CONSTANT = ("GL073", "a condition is always true or always false")
+    ENDLESS_LOOP = ("GL074", "nothing changes the condition of a loop")
+
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")
     NUMBER_CLASH = ("GL082", "two bindings take the same number")
@@ -163,6 +174,8 @@ class Code(Enum):
     NO_END = ("GL087", "a behaviour is started and nothing tells its end")
     NQC_NAME = ("GL088", "a name that NQC does not take")
     DEVICE_SETTING = ("GL089", "a setting of a device makes no sense")
+    IMAGE = ("GL090", "a compiled program cannot be loaded")
+    WORLD = ("GL091", "a world file says what cannot be")
     MESSAGE_RANGES = ("GL092", "two ranges of messages overlap")
     ARGUMENT_NUMBER = ("GL093", "an argument that a behaviour cannot be given")
     NQC_REFUSED = ("GL094", "the NQC compiler refuses the program")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from golc.checks import check
+from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, Span, UserError
 from golc.imports import join
 from golc.syntax import tree
@@ -26,39 +27,57 @@ def load(path: str | Path, constants: Mapping[str, str] | None = None, goal: str
     ``goal`` is a formula that becomes one more goal, under the name ``GOAL``. Raises ``UserError`` with every error if
     there is one; warnings are not mentioned.
     """
-    theory, diagnostics = examine(path, constants, goal)
-    if theory is None:
-        raise UserError(*[diagnostic for diagnostic in diagnostics if diagnostic.severity is Severity.ERROR])
-    return theory
+    examined = examine(path, constants, goal)
+    if examined.theory is None:
+        raise UserError(*[finding for finding in examined.findings if finding.severity is Severity.ERROR])
+    return examined.theory
+
+
+@dataclass(frozen=True)
+class Examined:
+    """A domain file: its theory, or none if it has errors, and all findings in the order of their places.
+
+    ``asked``: how many questions about all its situations were put; ``undecided``: how many of them were not decided.
+    """
+
+    theory: BasicActionTheory | None
+    findings: tuple[Diagnostic, ...]
+    asked: int = 0
+    undecided: int = 0
 
 
 def examine(
-    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None
-) -> tuple[BasicActionTheory | None, list[Diagnostic]]:
-    """The theory of a domain file, or None if it has errors, and all findings in the order of their places.
+    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None, proofs: bool = False
+) -> Examined:
+    """What is to be said of a domain file, including what it imports.
 
-    The declarations of imported files belong to it; ``constants`` and ``goal`` are as for ``load``.
+    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account.
     """
     try:
         source = read_source(path)
     except UserError as error:
-        return None, list(error.diagnostics)
+        return Examined(None, error.diagnostics)
     findings = Findings()
     file = parse_file(source, findings)
     if file is not None and goal is not None:
         file = _with_goal(file, goal, findings)
     if file is None:
-        return None, sorted(findings.diagnostics, key=_place((source,)))
+        return Examined(None, tuple(sorted(findings.diagnostics, key=_place((source,)))))
     joined = join(file, source, findings)
     file, sources = joined.file, joined.sources
     theory = elaborate(file, source, findings, constants, sources)
+    proved = None
     if theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):
                 # What an imported file declares need not be used by every file that imports it.
                 if diagnostic.code is not Code.UNUSED or diagnostic.span.source is source:
                     findings.add(diagnostic)
-    return None if findings.has_errors else theory, sorted(findings.diagnostics, key=_place(sources))
+        if proofs and not findings.has_errors:
+            proved = prove(theory)
+    found = sorted([*findings.diagnostics, *(proved.findings if proved else ())], key=_place(sources))
+    theory = None if findings.has_errors else theory
+    return Examined(theory, tuple(found), proved.asked if proved else 0, proved.undecided if proved else 0)
 
 
 def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:

@@ -8,9 +8,11 @@ import time
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
+from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from golc.diagnostics import Diagnostic, Findings, Source, Span
+from golc.diagnostics import DeviceError, Diagnostic, Findings, Source, Span
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
@@ -24,16 +26,21 @@ from golc.runtime.loop.inbox import Inbox
 from golc.runtime.loop.inbox import Source as EventSource
 from golc.runtime.loop.policy import OnImpossible, OnSurprise, Policy
 from golc.runtime.observers.journal import Journal
-from golc.runtime.observers.trace import BOLD, DIM, MARGIN, Style, Trace, summary
+from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace, summary
+from golc.runtime.observers.whereabouts import Whereabouts
 from golc.runtime.signals import ending_on_signals
 from golc.runtime.sources.exogenous import COMMANDS, Terminal, Timetable, from_operator
 from golc.runtime.sources.listener import Listener
 from golc.runtime.sources.polling import Poller
 from golc.runtime.sources.schedule import Schedule, read_schedule
 from golc.theory.ground import Call, one_of, read_value
+from golc.theory.order import arranged
 from golc.theory.statements import Message
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
+
+if TYPE_CHECKING:
+    from golc.runtime.standin import Place, RobotInWorld
 
 SIMULATED = "sim"
 """The port that stands for a simulated brick."""
@@ -56,6 +63,9 @@ class Settings:
     step: bool = False
     speed: float = 1.0
     seed: int = 0
+    world: str | None = None
+    """The file of the world in which a simulated brick is, ``none``, or None for the one beside the domain."""
+    picture: Path | None = None
     constants: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -93,6 +103,7 @@ class _Session:
         self.stack = stack
         self.inbox = Inbox()
         self.maps = brick_maps(theory)
+        self.robot: RobotInWorld | None = None
         self.executable = executable(theory, program.action, program.args)
         self.dynamics = self.executable.dynamics
         self.stdin = _descriptor()
@@ -110,6 +121,8 @@ class _Session:
         policy = self.policy(clock)
         self.executive = Executive(self.executable, Router(devices, self.theory), self.inbox, sources, policy, clock)
         self.executive.observers += [timetable.observe, *observers]
+        if self.robot is not None:
+            self.executive.observers.append(Whereabouts(self.robot.whereabouts, self.say))
         self.greet()
         outcome = self.executive.run()
         if pending := timetable.pending:
@@ -130,10 +143,14 @@ class _Session:
     def link(self) -> Link | None:
         """The way to the bricks, if the domain has any; starts a simulated one where no port is given."""
         settings = self.settings
+        if self.place.world is None and settings.picture is not None:
+            raise DeviceError("there is no world of which a picture could be drawn", help="name one with --world")
         if not self.maps:
             return None
         if not self.simulated:
             return Link(settings.port or "", settings.speed)
+        if self.place.world is not None:
+            return self.link_to_robot(self.place.world)
         from golc.runtime.rcxsim.process import BrickOptions, spawn
 
         options = BrickOptions(
@@ -142,6 +159,27 @@ class _Session:
         brick = self.stack.enter_context(spawn(self.theory.source.name, options))
         return Link(brick.port, settings.speed)
 
+    def link_to_robot(self, world: Path) -> Link:
+        """The way to a brick that is simulated in a world."""
+        from golc.runtime.rcxsim.trace import Trace as BrickTrace
+        from golc.runtime.standin import RobotInWorld
+
+        [actions] = self.maps.values()
+        settings, trace = self.settings, BrickTrace(self.tell_fault)
+        self.robot = robot = RobotInWorld(self.theory, actions, world, settings.speed, settings.seed, trace)
+        if settings.picture is not None:
+            self.stack.enter_context(robot.drawn(settings.picture))
+        return Link(str(world), settings.speed, robot.transport)
+
+    @cached_property
+    def place(self) -> Place:
+        """Where the brick is simulated, if it is."""
+        from golc.runtime.standin import Place, place
+
+        if not self.simulated and self.maps:
+            return Place(None)
+        return place(self.theory, self.maps, self.settings.world, self.settings.events is not None)
+
     @property
     def simulated(self) -> bool:
         """Whether golc itself simulates the bricks."""
@@ -149,6 +187,8 @@ class _Session:
 
     def is_ours(self, event: Call) -> bool:
         """Whether a line of the events file is reported from here, and not by the simulated brick."""
+        if self.place.world is not None:
+            return True
         return not (self.simulated and any(actions.handles(event.action, event.args) for actions in self.maps.values()))
 
     def sources(self, devices: Sequence[Device], clock: Clock) -> list[EventSource]:
@@ -189,10 +229,14 @@ class _Session:
         where = f"on {self.settings.port}" if self.settings.port and not self.simulated else ""
         if self.simulated:
             speed = "" if self.settings.speed == 1 else f", {self.settings.speed:g} times as fast as a real one"
-            where = f"on a simulated brick{speed}" + ("" if self.settings.port else " (no --port was given)")
+            world = self.place.world
+            where = "on a simulated brick" + (f" in {world}" if world else "") + speed
+            where += "" if self.settings.port else " (no --port was given)"
         if self.voice.verbosity >= 0:
             title = self.voice.style.paint(BOLD, f"{self.theory.name}: {self.program}")
             self.voice.write(f"{MARGIN}{title} {where}".rstrip())
+        if self.place.hint:
+            self.say(self.place.hint)
         if self.interactive:
             event = one_of([action for action in self.theory.actions.values() if from_operator(self.theory, action)])
             reports = "" if event is None else f"an exogenous action such as {event}, or "
@@ -203,6 +247,12 @@ class _Session:
         if self.voice.verbosity >= 0:
             self.voice.write(self.voice.style.paint(DIM, f"{MARGIN}{text}"))
 
+    def tell_fault(self, record: Mapping[str, object]) -> None:
+        """A simulated brick says what it does; what matters here is that its program has failed."""
+        if record["what"] == "fault":
+            text = "the brick has stopped its program: {task}, address {address}: {problem}".format(**record)
+            self.voice.write(self.voice.style.paint(RED, f"{MARGIN}{text}"))
+
     def ask(self, question: str) -> None:
         """Show a question, or a word about a wrong answer."""
         self.voice.write(self.voice.style.paint(BOLD, f"{MARGIN}? {question}"))
@@ -210,7 +260,11 @@ class _Session:
     def speak(self, message: Message, args: Args) -> str:
         """The text of a message now."""
         state, evaluate = self.executive.state, self.dynamics.knowing.evaluate
-        return "".join(part if isinstance(part, str) else show(evaluate(part, state, args)) for part in message.parts)
+        texts = []
+        for part in message.parts:
+            text = part if isinstance(part, str) else show(arranged(evaluate(part, state, args), part.type))
+            texts.append(text)
+        return "".join(texts)
 
     def show(self, what: str) -> str:
         """The state or the history as text."""

@@ -116,13 +116,11 @@ class Knowledge:
         """The environments that binders make, as far as a condition is known to hold."""
         found = [env]
         for binder in binders:
-            longer = []
+            longer: list[tuple[Value, ...]] = []
             for inner in found:
-                values = binder.values
                 if binder.within is not None:
-                    within = self.value(binder.within, s, inner)
-                    values = within if isinstance(within, tuple) else [v for v in binder.values if v in within]
-                longer += [(*inner, value) for value in values]
+                    self.value(binder.within, s, inner)
+                self.terms.visit((binder,), None, next(Actual.each(s)), inner, longer.append)
             found = longer
         return [inner for inner in found if where is None or self.holds(where, s, inner)]
 

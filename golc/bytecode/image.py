@@ -123,10 +123,11 @@ def _read_symbols(data: bytes, place: int, count: int) -> Iterator[Symbol]:
 
 def variables_used(chunk: Chunk) -> set[int]:
     """The numbers of the variables that a chunk reads or writes: 0..31 are the brick's, 32..47 the task's own."""
-    return {number for instruction in instructions(chunk.code) for number in _variables(instruction)}
+    return {number for instruction in instructions(chunk.code) for number in variables_in(instruction)}
 
 
-def _variables(instruction: Instruction) -> Iterator[int]:
+def variables_in(instruction: Instruction) -> Iterator[int]:
+    """The numbers of the variables that an instruction names."""
     for operand, decoded in zip(instruction.op.operands, instruction.operands, strict=True):
         if operand is Operand.VARIABLE and isinstance(decoded, int):
             yield decoded

@@ -44,42 +44,56 @@ class Source(IntEnum):
     LOG_BYTE = 42
 
 
-LISTED = {
-    Source.VARIABLE: "var[{}]",
-    Source.TIMER: "Timer({})",
-    Source.CONSTANT: "{}",
-    Source.OUTPUT: "Output({})",
-    Source.RANDOM: "Random({})",
-    Source.PROGRAM: "Program({})",
-    Source.SENSOR: "Input({})",
-    Source.SENSOR_TYPE: "SensorType({})",
-    Source.SENSOR_MODE: "SensorMode({})",
-    Source.SENSOR_RAW: "SensorRaw({})",
-    Source.SENSOR_BOOLEAN: "SensorBool({})",
-    Source.WATCH: "Watch({})",
-    Source.MESSAGE: "Message({})",
-    Source.GLOBAL_OUTPUT: "GlobalOutput({})",
-    Source.COUNTER: "Counter({})",
-    Source.ACTIVE_EVENTS: "ActiveEvents({})",
-    Source.EVENT_STATE: "EventState({})",
-    Source.FAST_TIMER: "FastTimer({})",
-    Source.CLICK_COUNTER: "ClickCounter({})",
-    Source.UPPER_LIMIT: "UpperLimit({})",
-    Source.LOWER_LIMIT: "LowerLimit({})",
-    Source.HYSTERESIS: "Hysteresis({})",
-    Source.CLICK_TIME: "ClickTime({})",
-    Source.UART: "uart[{}]",
-    Source.BATTERY: "BatteryLevel({})",
-    Source.FIRMWARE: "FirmwareVersion({})",
-    Source.INDIRECT: "*var[{}]",
-    Source.LOG_TYPE_INDIRECT: "LogTypeInd({})",
-    Source.LOG_TYPE: "LogTypeDir({})",
-    Source.LOG_VALUE_INDIRECT: "LogValInd({})",
-    Source.LOG_VALUE: "LogValDir({})",
-    Source.LOG_BYTE_INDIRECT: "LogByteInd({})",
-    Source.LOG_BYTE: "LogByteDir({})",
+@dataclass(frozen=True, slots=True)
+class Row:
+    """How ``nqc -L`` writes a value of a source, the first firmware that has it, and the arguments that it takes."""
+
+    listed: str
+    firmware: int
+    arguments: range
+
+
+VARIABLES, WORDS, ONE = range(48), range(-0x8000, 0x8000), range(1)
+SENSORS = MOTORS = COUNTERS = range(3)
+TIMERS, EVENTS = range(4), range(16)
+TASKS = range(11)
+"""The ten tasks, and 10 for the one that asks."""
+
+SOURCES: dict[int, Row] = {
+    Source.VARIABLE: Row("var[{}]", 1, VARIABLES),
+    Source.TIMER: Row("Timer({})", 1, TIMERS),
+    Source.CONSTANT: Row("{}", 1, WORDS),
+    Source.OUTPUT: Row("Output({})", 1, MOTORS),
+    Source.RANDOM: Row("Random({})", 1, range(0x8000)),
+    Source.PROGRAM: Row("Program({})", 1, ONE),
+    Source.SENSOR: Row("Input({})", 1, SENSORS),
+    Source.SENSOR_TYPE: Row("SensorType({})", 1, SENSORS),
+    Source.SENSOR_MODE: Row("SensorMode({})", 1, SENSORS),
+    Source.SENSOR_RAW: Row("SensorRaw({})", 1, SENSORS),
+    Source.SENSOR_BOOLEAN: Row("SensorBool({})", 1, SENSORS),
+    Source.WATCH: Row("Watch({})", 1, ONE),
+    Source.MESSAGE: Row("Message({})", 1, ONE),
+    Source.GLOBAL_OUTPUT: Row("GlobalOutput({})", 2, MOTORS),
+    Source.COUNTER: Row("Counter({})", 2, COUNTERS),
+    Source.ACTIVE_EVENTS: Row("ActiveEvents({})", 2, TASKS),
+    Source.EVENT_STATE: Row("EventState({})", 2, EVENTS),
+    Source.FAST_TIMER: Row("FastTimer({})", 2, TIMERS),
+    Source.CLICK_COUNTER: Row("ClickCounter({})", 2, EVENTS),
+    Source.UPPER_LIMIT: Row("UpperLimit({})", 2, EVENTS),
+    Source.LOWER_LIMIT: Row("LowerLimit({})", 2, EVENTS),
+    Source.HYSTERESIS: Row("Hysteresis({})", 2, EVENTS),
+    Source.CLICK_TIME: Row("ClickTime({})", 2, EVENTS),
+    Source.UART: Row("uart[{}]", 2, range(18)),
+    Source.BATTERY: Row("BatteryLevel({})", 2, ONE),
+    Source.FIRMWARE: Row("FirmwareVersion({})", 2, ONE),
+    Source.INDIRECT: Row("*var[{}]", 2, VARIABLES),
+    Source.LOG_TYPE_INDIRECT: Row("LogTypeInd({})", 2, VARIABLES),
+    Source.LOG_TYPE: Row("LogTypeDir({})", 2, WORDS),
+    Source.LOG_VALUE_INDIRECT: Row("LogValInd({})", 2, VARIABLES),
+    Source.LOG_VALUE: Row("LogValDir({})", 2, WORDS),
+    Source.LOG_BYTE_INDIRECT: Row("LogByteInd({})", 2, VARIABLES),
+    Source.LOG_BYTE: Row("LogByteDir({})", 2, WORDS),
 }
-"""How ``nqc -L`` writes a value of each source."""
 
 LAST = 42
 """The last number that ``nqc -L`` takes for that of a source, though it has names for some only."""
@@ -94,5 +108,11 @@ class Value:
 
     def __str__(self) -> str:
         """As ``nqc -L`` writes it."""
+        row = self.row
         unnamed = f"%{self.source}({{}})" if self.source <= LAST else "?({})"
-        return LISTED.get(self.source, unnamed).format(self.argument)  # type: ignore[call-overload, no-any-return]
+        return (unnamed if row is None else row.listed).format(self.argument)
+
+    @property
+    def row(self) -> Row | None:
+        """What is known of its source; None if that is unknown."""
+        return SOURCES.get(self.source)

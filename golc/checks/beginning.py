@@ -27,8 +27,8 @@ class Beginning:
 
     def cases(self, formula: Term) -> Iterator[tuple[Assignment, bool] | None]:
         """Whether a formula holds in each case that it distinguishes; ends with None if they are too many."""
-        evaluate = self.dynamics.interpreter.evaluate
-        for number, (case, holds) in enumerate(survey(self.state, lambda world: evaluate(formula, world, ()))):
+        compiled = self.dynamics.compiler.term(formula, 0)
+        for number, (case, holds) in enumerate(survey(self.state, lambda world: compiled(world, ()))):
             if number == MOST:
                 yield None
                 return

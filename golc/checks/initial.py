@@ -68,12 +68,15 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
             reason, span = error.reason, error.span
         findings.error(Code.INITIAL_VALUE, f"the initial value of `{what}` cannot be computed: {reason}", span, "here")
         return False
+    if not values:
+        message = f"fluent `{what}` is one of no values at first"
+        findings.error(Code.NO_CHOICE, message, fluent.initial.span, "at least one has to be possible")
     for value in values:
         if value not in fluent.type:
             message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type)}"
             findings.error(Code.INITIAL_VALUE, message, fluent.initial.span, f"is {show(value)}")
             return False
-    return True
+    return bool(values)
 
 
 def _values(fluent: Fluent, args: Env, closed: Closed) -> Collection[Value]:

@@ -76,6 +76,8 @@ def _should_be_used(bound: Bound, handed_over: set[str]) -> bool:
             return bool(clauses)
         case tree.Quantifier(kind=kind):
             return kind in ("exists", "forall")  # the others count or add up, even without looking
+        case tree.Comprehension(kind=kind):
+            return kind == "set"  # a list has an element for each binding, even if all are equal
         case _:
             return True
 

@@ -24,7 +24,8 @@ def check_programs(theory: BasicActionTheory, findings: Findings) -> None:
 def _check_interrupts(theory: BasicActionTheory, handlers: tuple[Interrupt, ...], findings: Findings) -> None:
     for index, handler in enumerate(handlers):
         below = handlers[index + 1 :]
-        if below and _always(theory, handler.condition):
+        may_be_empty = any(binder.within is not None for binder in handler.binders)
+        if below and not may_be_empty and _always(theory, handler.condition):
             _hides_all(handler, below[0], steps_always(theory, handler.body), findings)
             return  # what is below is not reached, so nothing more is to be said of it
         if not handler.binders and steps_always(theory, handler.body):

@@ -165,13 +165,13 @@ class _Walk:
                 self.inner(node, scope)
 
     def inner(self, node: tree.Node, scope: Locals) -> None:
-        """What binders bind is known in everything beside them."""
+        """What binders bind is known in everything beside them; a binder's collection speaks of those before it."""
         inside = [*children(node)]
-        binders = [part for part in inside if isinstance(part, tree.Binder)]
-        for binder in binders:
-            self.push([binder.type, binder.collection], scope)
-        bound = self.bind(scope, [binder.name for binder in binders], node)
-        self.push([part for part in inside if not isinstance(part, tree.Binder)], bound)
+        for part in inside:
+            if isinstance(part, tree.Binder):
+                self.push([part.type, part.collection], scope)
+                scope = self.bind(scope, [part.name], node)
+        self.push([part for part in inside if not isinstance(part, tree.Binder)], scope)
 
     def binding(self, node: tree.Binding) -> None:
         scope = self.parameters.get(node.action.text, {})

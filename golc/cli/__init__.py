@@ -21,6 +21,7 @@ COMMANDS = {
     "plan": "golc.cli.plan",
     "test": "golc.cli.test",
     "fmt": "golc.cli.fmt",
+    "explain": "golc.cli.explain",
     "gen-nqc": "golc.cli.gen_nqc",
     "run": "golc.cli.run",
     "sim": "golc.cli.sim",

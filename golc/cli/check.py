@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 import click
@@ -21,9 +21,12 @@ if TYPE_CHECKING:
     "--format", "form", type=click.Choice(["text", "json"]), default="text", help="How to write the findings."
 )
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
+@click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
 @constants_option
 @console_options
-def command(files: tuple[str, ...], form: str, strict: bool, constants: Mapping[str, str], console: Console) -> int:
+def command(
+    files: tuple[str, ...], form: str, strict: bool, no_proofs: bool, constants: Mapping[str, str], console: Console
+) -> int:
     """Find what is wrong with domain files, without running them.
 
     The findings go to stdout, a summary to stderr. Ends with 1 if there is an error (with --strict: or a warning).
@@ -35,23 +38,27 @@ def command(files: tuple[str, ...], form: str, strict: bool, constants: Mapping[
     from golc.diagnostics import Severity
     from golc.loading import examine
 
-    findings = []
+    findings: list[Diagnostic] = []
+    asked = undecided = 0
     for file in files:
-        theory, found = examine(file, constants)
-        findings.extend(found)
+        examined = examine(file, constants, proofs=not no_proofs)
+        findings.extend(examined.findings)
+        asked += examined.asked
+        undecided += examined.undecided
         if form == "text":
-            _write(console, found)
+            _write(console, examined.findings)
         if console.verbosity > 0:
-            console.err(f"{file}: {_contents(theory)}")
+            console.err(f"{file}: {_contents(examined.theory)}")
     errors = sum(finding.severity is Severity.ERROR for finding in findings)
     warnings = sum(finding.severity is Severity.WARNING for finding in findings)
     if form == "json":
-        _write_json(console, findings, errors, warnings)
-    console.note(_summary(len(files), errors, warnings))
+        counts = {"errors": errors, "warnings": warnings, "questions": asked, "undecided": undecided}
+        _write_json(console, findings, counts)
+    console.note(_summary(len(files), errors, warnings, undecided))
     return int(errors > 0 or (strict and warnings > 0))
 
 
-def _write(console: Console, findings: list[Diagnostic]) -> None:
+def _write(console: Console, findings: Iterable[Diagnostic]) -> None:
     import sys
 
     from golc.rendering import render
@@ -60,18 +67,18 @@ def _write(console: Console, findings: list[Diagnostic]) -> None:
         console.out(render(finding, console.colored(sys.stdout)) + "\n")
 
 
-def _write_json(console: Console, findings: list[Diagnostic], errors: int, warnings: int) -> None:
+def _write_json(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, int]) -> None:
     import json
 
     from golc.rendering import to_json
 
-    found = {"findings": [to_json(finding) for finding in findings], "errors": errors, "warnings": warnings}
-    console.out(json.dumps(found, indent=2))
+    console.out(json.dumps({"findings": [to_json(finding) for finding in findings], **counts}, indent=2))
 
 
-def _summary(files: int, errors: int, warnings: int) -> str:
+def _summary(files: int, errors: int, warnings: int, undecided: int) -> str:
     found = [counted(number, what) for number, what in ((errors, "error"), (warnings, "warning")) if number]
-    return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}"
+    open_ = f"; {counted(undecided, 'question')} not decided" if undecided else ""
+    return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}{open_}"
 
 
 def _contents(theory: BasicActionTheory | None) -> str:

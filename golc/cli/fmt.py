@@ -95,6 +95,9 @@ def _laid_out(console: Console, file: str) -> Iterator[_Result]:
     from golc.syntax.text import read_source, read_stream
 
     findings = Findings()
+    if Path(file).is_fifo() or Path(file).is_char_device():
+        console.err(f"error: `{file}` is no file that could be written anew; `-` stands for standard input")
+        return
     try:
         source = read_stream(STDIN, sys.stdin.buffer) if file == "-" else read_source(file)
         text = formatted(source, findings)

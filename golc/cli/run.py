@@ -70,6 +70,13 @@ if TYPE_CHECKING:
     help="How many simulated seconds pass in one; a simulated brick needs the same.",
 )
 @click.option("--seed", type=int, default=0, show_default=True, help="Of what the simulated brick leaves to chance.")
+@click.option(
+    "--world",
+    type=click.Path(),
+    metavar="FILE",
+    help="The world of the simulated brick; none: only the theory. Default: FILE.toml beside the domain.",
+)
+@click.option("--picture", type=click.Path(), metavar="FILE", help="Draw that world in the end, from above, as SVG.")
 @constants_option
 @console_options
 def command(
@@ -89,6 +96,8 @@ def command(
     step: bool,
     speed: float,
     seed: int,
+    world: str | None,
+    picture: str | None,
     constants: Mapping[str, str],
 ) -> int:
     """Run a program of FILE online: decide, have the devices act, and listen to the world.
@@ -102,6 +111,8 @@ def command(
     golc run examples/delivery/delivery.gl
     golc run examples/delivery/delivery.gl --port /dev/ttyUSB0 --journal today.jsonl
     """
+    if port not in (None, "sim") and (world is not None or picture is not None):
+        raise click.UsageError("--world and --picture are for a simulated brick, not for one at a port")
     from golc.loading import load
     from golc.runtime.loop.policy import OnImpossible, OnSurprise
     from golc.runtime.session import Settings, run_online
@@ -122,6 +133,8 @@ def command(
         step=step,
         speed=speed,
         seed=seed,
+        world=world,
+        picture=None if picture is None else Path(picture),
         constants=constants,
     )
     try:

@@ -11,18 +11,26 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from golc.cli import sim_machine
 from golc.cli.common import Console, Quantity, address, console_options, constants_option
 
 if TYPE_CHECKING:
+    from golc.runtime.rcxsim.line import Line, LineOptions
     from golc.runtime.rcxsim.ports import Port
-    from golc.runtime.rcxsim.trace import Record
+    from golc.runtime.rcxsim.trace import Record, Trace
+    from golc.runtime.rcxsim.world.world import World
 
 TROUBLE = {
+    "fault": "{task}, address {address}: {problem}; the program is stopped",
+    "dropped": "{why}",
+    "downloaded": "{part}: {problem}",
+    "request": "a request is not answered ({payload}): {problem}",
     "unknown": "the host sent number {number}, which the brick has no action for; answered 0",
     "panicked": "{why}: the brick panics until it is aborted",
     "senseless": "{action} could not be sensed, answered 0: {problem}",
 }
-"""What is said on stderr of records that mean trouble; see also ``problem``."""
+"""What is said on stderr of records that mean trouble; of some only if they have a ``problem``."""
+ONLY_WITH_PROBLEM = ("downloaded", "request")
 
 
 def _outages(
@@ -42,8 +50,8 @@ def _outages(
     return tuple(sorted(outages))
 
 
-@click.command(name="sim", short_help="Simulate the brick of a domain behind a serial port.")
-@click.argument("file", type=click.Path(path_type=Path))
+@click.command(name="sim", short_help="Simulate a brick behind a serial port.")
+@click.argument("file", type=click.Path(path_type=Path), required=False)
 @click.option(
     "--pty", "link", type=click.Path(path_type=Path), metavar="PATH", help="Make a link to the terminal here."
 )
@@ -84,11 +92,49 @@ def _outages(
 @click.option(
     "--sleep/--no-sleep", default=True, help="Whether the tower falls asleep after 4 s of the host's silence."
 )
+@click.option(
+    "--target",
+    "option",
+    type=click.Choice(["rcx", "rcx2"]),
+    help="Byte code: firmware 1.0, or 2.0, of the empty brick, or for which FILE.nqc is compiled (default: rcx2).",
+)
+@click.option(
+    "--brick",
+    "settings",
+    multiple=True,
+    metavar="NAME=VALUE",
+    callback=sim_machine.settings,
+    help="Byte code: how the firmware is, where that is not known; may be repeated.",
+)
+@click.option(
+    "--for",
+    "seconds",
+    type=Quantity(0, 1e6),
+    metavar="SECONDS",
+    help="Byte code: let so many simulated seconds pass at once, without a port, and show how the brick stands.",
+)
+@click.option(
+    "--world",
+    "scene",
+    type=click.Path(path_type=Path),
+    metavar="FILE",
+    help="Byte code, also that of a domain's behaviours: the floor, the robot and the people around the brick.",
+)
+@click.option(
+    "--picture", type=click.Path(path_type=Path), metavar="FILE", help="Draw the world in the end, from above, as SVG."
+)
+@click.option(
+    "--steps",
+    type=click.IntRange(1),
+    metavar="N",
+    help="Byte code: the same until the program has ended; after N op codes it is an error that it has not.",
+)
+@click.option("--listing", is_flag=True, help="Byte code: print the op codes as `nqc -L` does, and end.")
 @click.option("--until-stdin-closes", is_flag=True, hidden=True)
 @constants_option
 @console_options
 def command(
-    file: Path,
+    file: Path | None,
     link: Path | None,
     tcp: tuple[str, int] | None,
     speed: float,
@@ -104,44 +150,111 @@ def command(
     trace: Path | None,
     echo: bool,
     sleep: bool,
+    option: str | None,
+    settings: Mapping[str, Any],
+    seconds: float | None,
+    scene: Path | None,
+    picture: Path | None,
+    steps: int | None,
+    listing: bool,
     until_stdin_closes: bool,
     constants: Mapping[str, str],
     console: Console,
 ) -> None:
-    """Simulate the brick that FILE describes, behind a serial port that `golc run --port` can use.
+    """Simulate a brick behind a serial port that `golc run --port` and `nqc` can use.
 
-    The brick knows the theory only, never the program: it does what it is told, takes a while for it, senses, and
-    reports exogenous actions, by the script of --events or by chance. Prints one line, `pty PATH` or `tcp HOST:PORT`,
-    when it is ready, and ends on Ctrl-C.
+    FILE is a domain: the brick knows the theory only, never the program: it does what it is told, takes a while for
+    it, senses, and reports exogenous actions, by the script of --events or by chance. Or FILE is a program, .nqc or
+    .rcx: the brick executes its byte code. Without FILE the brick is empty and waits for `nqc -d`. With --world also a
+    domain's behaviours are compiled, and their robot drives.
+
+    Prints one line, `pty PATH` or `tcp HOST:PORT`, when it is ready, and ends on Ctrl-C.
 
     \b
     golc sim examples/delivery/delivery.gl --pty /tmp/brick --speed 5 &
     golc run examples/delivery/delivery.gl --port /tmp/brick --speed 5
+    golc sim robot.nqc --world room.toml --for 10 --picture way.svg
     """
     if link is not None and tcp is not None:
         raise click.UsageError("--pty and --tcp exclude each other")
-    from golc.loading import load
+    byte_code = sim_machine.is_byte_code(file) or scene is not None
+    if byte_code:
+        _refuse("a domain without --world", {"--events": events is not None})
+        _refuse("a domain", {"-D": constants} if sim_machine.is_byte_code(file) else {})
+        program: dict[str, object] = {"--for": seconds is not None, "--steps": steps, "--listing": listing}
+        _refuse("a program: give a FILE", program if file is None else {})
+    else:
+        given: dict[str, object] = {"--target": option, "--brick": settings, "--for": seconds is not None}
+        given |= {"--steps": steps, "--listing": listing}
+        _refuse("byte code, a FILE.nqc or FILE.rcx, or --world", given)
+    _refuse("a world: give one with --world", {"--picture": picture is not None and scene is None})
     from golc.runtime.rcxsim.line import TOWER_SLEEPS_AFTER, LineOptions
     from golc.runtime.rcxsim.serve import serve, stopped_by_signals
-    from golc.runtime.rcxsim.theory.simulator import build
+    from golc.runtime.rcxsim.surroundings import Bench
     from golc.runtime.rcxsim.trace import Trace, to_file
-    from golc.runtime.sources.schedule import read_schedule
 
-    theory = load(file, constants)
-    schedule = None if events is None else read_schedule(events, theory)
     sleeps = TOWER_SLEEPS_AFTER if sleep else None
     options = LineOptions(air_time, loss, garble, echo, sleeps, repeat, late, noise, outages)
     with contextlib.ExitStack() as stack:
         readers = [_teller(console)]
         if trace is not None:
             readers.append(to_file(stack.enter_context(_opened(trace))))
-        line = build(theory, options, schedule, seed, Trace(*readers))
+        told = Trace(*readers)
+        if file is None or byte_code:
+            world = None if scene is None else _world(scene, seed, told)
+            made = {"seed": seed, **settings}
+            machine = sim_machine.Simulation(file, option, made, world or Bench(), told, constants)
+            if world is not None and not listing:
+                stack.callback(_show, world, picture and stack.enter_context(_opened(picture)), console)
+            if shown := machine.shown(listing, seconds, steps, options):
+                console.out("\n".join(shown))
+                return
+            line, rest = machine.line(options), sim_machine.REST
+        else:
+            line, rest = _theory_line(file, constants, events, options, seed, told), 0.0
         stops = [stack.enter_context(stopped_by_signals())]
         if until_stdin_closes:
             stops.append(sys.stdin.fileno())
         port = stack.enter_context(contextlib.closing(_port(link, tcp)))
         console.out(port.description)
-        serve(line, port, stops, speed)
+        if file is None:
+            console.note("the brick is empty: nqc can send it a program")
+        serve(line, port, stops, speed, rest)
+
+
+def _refuse(of: str, given: Mapping[str, object]) -> None:
+    """Refuse the options that are given and do not belong to what is simulated."""
+    for name, value in given.items():
+        if value:
+            raise click.UsageError(f"{name} is for {of}")
+
+
+def _world(path: Path, seed: int, trace: Trace) -> World:
+    from golc.runtime.rcxsim.world.world import World
+    from golc.runtime.rcxsim.world.worldfile import read_world
+
+    return World(read_world(path), seed, trace)
+
+
+def _show(world: World, picture: Any, console: Console) -> None:
+    """Draw the world as it is in the end, and say where the robot is."""
+    from golc.runtime.rcxsim.world.picture import draw
+
+    if picture is not None:
+        picture.write(draw(world.scene, world.record, world.pose))
+    console.out(f"the robot is {world.whereabouts}")
+
+
+def _theory_line(
+    file: Path, constants: Mapping[str, str], events: Path | None, options: LineOptions, seed: int, trace: Trace
+) -> Line:
+    from golc.loading import load
+    from golc.runtime.rcxsim.theory.simulator import build
+    from golc.runtime.sources.schedule import read_schedule
+
+    theory = load(file, constants)
+    schedule = None if events is None else read_schedule(events, theory)
+    return build(theory, options, schedule, seed, trace)
 
 
 def _port(link: Path | None, tcp: tuple[str, int] | None) -> Port:
@@ -163,6 +276,8 @@ def _teller(console: Console) -> Any:
     def tell(record: Record) -> None:
         problem = record.get("problem")
         text = TROUBLE.get(record["what"]) or ("{action}: {problem}" if problem else None)
+        if record["what"] in ONLY_WITH_PROBLEM and not problem:
+            text = None
         if text is not None and console.verbosity >= 0:
             console.err(f"{record['t']:9.3f} s  " + text.format(**record))
         elif console.verbosity > 0:

@@ -12,7 +12,7 @@ from golc.nqc.actionmap import DEFAULT_TIMEOUT, LARGEST, ActionMap, Entry, value
 from golc.nqc.wire import wire_of
 from golc.theory.fitting import size
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, Device, Parameter
-from golc.theory.types import Interval, Optional, Type, show
+from golc.theory.types import INT, Interval, Optional, Type, show
 
 __all__ = ["ActionMap", "Entry", "implied", "number_device"]
 
@@ -60,7 +60,7 @@ def _draft(theory: BasicActionTheory, binding: Binding, findings: Findings) -> E
                 Code.BINDING_UNBOUNDED,
                 f"`{action.name}` cannot have a number for each argument: `{slot.name}` is of type {slot.type}",
                 binding.span,
-                help=f"bind an interval, such as `{action.name}({slot.name}: 1..8)`",
+                help=f"bind an interval, such as `{action.name}({slot.name}: 1..8)`" if slot.type == INT else None,
             )
             return None
     return Entry(
@@ -157,13 +157,19 @@ def _check_results(action: Action, entry: Entry, findings: Findings) -> None:
         )
     elif entry.table is not None:
         _check_table(action, entry, findings)
-    elif entry.sensed is not None and entry.sensed.finite and not _fits(entry.sensed, 0):
+    elif entry.sensed is not None and not _answers(entry.sensed):
+        example = show(entry.sensed.values[0]) if entry.sensed.finite else "…"
         findings.error(
             Code.SENSING_NUMBER,
             f"`{action.name}` senses a value of {entry.sensed}, but a brick answers with a number from 0 to {LARGEST}",
             entry.span,
-            help=f"say in the binding what each number means, such as `{{0: {show(entry.sensed.values[0])}}}`",
+            help=f"say in the binding what each number means, such as `{{0: {example}}}`",
         )
+
+
+def _answers(type_: Type) -> bool:
+    """Whether a brick can answer each value of a type with a number of its own; if there is no end of them, some."""
+    return _fits(type_, 0) if type_.finite else "int" in type_.kinds
 
 
 def _check_table(action: Action, entry: Entry, findings: Findings) -> None:

@@ -66,17 +66,19 @@ def find_nqc() -> str:
     return found
 
 
-def compile_program(program: Path, folders: Sequence[Path], target: Target, where: Span) -> Compiled:
-    """Compile an NQC file; the image comes to lie beside it.
+def compile_program(
+    program: Path, folders: Sequence[Path], target: Target, where: Span, image: Path | None = None
+) -> Compiled:
+    """Compile an NQC file; the image comes to lie beside it, if no other place is given.
 
     ``folders`` are searched for includes, ``where`` is the place of the device, to which an error without a place of
     its own is attached. Raises UserError with nqc's errors at their places, or if the program is too large; DeviceError
     if nqc is missing or fails in another way.
     """
     nqc = find_nqc()
-    image = program.with_suffix(".rcx")
+    image = image or program.with_suffix(".rcx")
     includes = [f"-I{folder.resolve()}" for folder in folders]
-    command = [nqc, f"-T{target.nqc}", f"-O{image.name}", *includes, program.name]
+    command = [nqc, f"-T{target.nqc}", f"-O{image.resolve()}", *includes, program.name]
     image.unlink(missing_ok=True)
     try:
         done = subprocess.run(command, cwd=program.parent, capture_output=True, timeout=SECONDS, check=False)
@@ -124,7 +126,7 @@ def parse_errors(output: str, folders: Sequence[Path], where: Span) -> Iterator[
 def _diagnostic(message: str, span: Span | None, where: Span) -> Diagnostic:
     if span is None:
         return Diagnostic(Code.NQC_REFUSED, f"nqc: {message}", where, help=_help(message))
-    labels = (Label(where, "the device that has this program"),)
+    labels = (Label(where, "the device that has this program"),) if where.text else ()
     return Diagnostic(Code.NQC_REFUSED, f"nqc: {message}", span, labels=labels, help=_help(message))
 
 

@@ -139,7 +139,7 @@ def impossible(dynamics: Dynamics, state: State, action: str, args: tuple[Value,
 
 
 def _impossible(dynamics: Dynamics, state: State, span: Span, action: str, args: tuple[Value, ...]) -> Blocked:
-    call = show_call(action, args)
+    call = dynamics.call(action, args)
     for term in dynamics.theory.actions[action].preconditions:
         for part in _conjuncts(term):
             verdict = dynamics.knowing.verdict(part, state, args)

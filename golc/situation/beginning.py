@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
-from typing import cast
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
 
+from golc.situation.compile import Compiler
 from golc.situation.interpret import Interpreter
 from golc.situation.knowing import placed
 from golc.situation.layout import World
@@ -13,12 +14,13 @@ from golc.situation.worlds import State, choices, keep, survey
 from golc.theory import errors
 from golc.theory.evaluate import Env
 from golc.theory.order import elements
+from golc.theory.recursion import deep_recursion
 from golc.theory.terms import Choice, Operation, Operator, Quantified, Term
 from golc.theory.theory import Fluent
 from golc.theory.types import Value, show_call
 
 
-def initial_state(interpreter: Interpreter, given: Mapping[int, Value]) -> State:
+def initial_state(interpreter: Interpreter, compiler: Compiler, given: Mapping[int, Value]) -> State:
     """What is possible at first; ``given`` are values of slots that replace those of the theory.
 
     Raises ``ProgramError`` if nothing is possible, or an initial value is no value.
@@ -32,9 +34,14 @@ def initial_state(interpreter: Interpreter, given: Mapping[int, Value]) -> State
         if len(values) > 1:
             options[slot] = values
     state = choices(tuple(base), options)
-    for constraint in interpreter.theory.initially:
-        for part, env in _parts(constraint):
-            state = _constrained(interpreter, state, part, env)
+    parts = [part for constraint in interpreter.theory.initially for part in _parts(constraint)]
+    compiled: dict[int, Callable[..., Any]] = {}  # by the identity of the formula, which many parts may share
+    for formula, env in parts:
+        if id(formula) not in compiled:
+            with deep_recursion():
+                compiled[id(formula)] = compiler.term(formula, len(env))
+        with placed((formula,)):
+            state = _constrained(state, compiled[id(formula)], formula, env)
     return state
 
 
@@ -55,13 +62,11 @@ def _values(interpreter: Interpreter, fluent: Fluent, args: World) -> Sequence[V
     return values
 
 
-def _constrained(interpreter: Interpreter, state: State, part: Term, env: Env) -> State:
-    with placed((part,)):
-        cases = survey(state, lambda world: interpreter.evaluate(part, cast(World, world), env))
-        kept = [case for case, holds in cases if holds]
-        if not kept:
-            raise errors.no_initial_world(part.span)
-        return keep(state, kept)
+def _constrained(state: State, holds: Callable[..., Any], formula: Term, env: Env) -> State:
+    kept = [case for case, found in survey(state, lambda world: holds(world, env)) if found]
+    if not kept:
+        raise errors.no_initial_world(formula.span)
+    return keep(state, kept)
 
 
 def _parts(constraint: Term) -> Iterator[tuple[Term, Env]]:
@@ -72,9 +77,11 @@ def _parts(constraint: Term) -> Iterator[tuple[Term, Env]]:
         match term:
             case Operation(op=Operator.AND, args=args):
                 stack.extend((arg, env) for arg in reversed(args))
-            case Quantified(kind="forall", where=None, binders=binders, body=body) if all(
-                binder.within is None for binder in binders
+            case Quantified(kind="forall", binders=binders, where=where, body=body) if not any(
+                binder.within for binder in binders
             ):
+                if where is not None:
+                    body = Operation(Operator.IMPLIES, (where, body), type=term.type, span=term.span)
                 values = itertools.product(*[binder.variable.type.values for binder in binders])
                 stack.extend((body, (*env, *each)) for each in reversed([*values]))
             case _:

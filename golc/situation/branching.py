@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import NamedTuple, cast
 
 from golc.situation.compile import Cell, Cells, Compiler, variables
-from golc.situation.layout import Layout, World
+from golc.situation.layout import Layout, Slots, World
 from golc.situation.worlds import MOST_CASES, State, TooManyCasesError, View, Worlds, rebuilt, survey
 from golc.theory import errors
 from golc.theory.order import elements
@@ -35,7 +35,7 @@ class _Instance:
     the same in every case.
     """
 
-    clause: _Clause
+    clause: Clause
     env: tuple[Value, ...]
     written: frozenset[int]
     factors: frozenset[int]
@@ -46,7 +46,7 @@ class Branching:
 
     def __init__(self, action: Action, layout: Layout, compiler: Compiler) -> None:
         self._layout = layout
-        self._clauses = [_Clause(effect, len(action.parameters), layout, compiler) for effect in action.effects]
+        self._clauses = [Clause(effect, len(action.parameters), layout, compiler) for effect in action.effects]
 
     def progress(self, state: State, args: tuple[Value, ...]) -> State:
         """What is possible after the action; raises ``TooManyCasesError`` if that is too much."""
@@ -119,7 +119,7 @@ def _groups(instances: Sequence[_Instance]) -> Iterator[list[_Instance]]:
     return iter(groups.values())
 
 
-class _Clause:
+class Clause:
     """A compiled clause: the slots that it changes in a world, each with its new value."""
 
     def __init__(self, effect: Effect, depth: int, layout: Layout, compiler: Compiler) -> None:
@@ -135,7 +135,7 @@ class _Clause:
         for values in itertools.product(*[binder.variable.type.values for binder in self._outer]):
             yield (*args, *values)
 
-    def changes(self, world: World | View, env: tuple[Value, ...]) -> list[tuple[int, Value]]:
+    def changes(self, world: Slots, env: tuple[Value, ...]) -> list[tuple[int, Value]]:
         """The slots that change in a world, each with its new value or with ``Options``."""
         found: list[tuple[int, Value]] = self._function(world, *env)
         return found

@@ -40,7 +40,7 @@ from golc.theory.terms import (
     subterms,
 )
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
-from golc.theory.types import Collection, Interval, Type, Value, number
+from golc.theory.types import Interval, Type, Value, number
 
 FORMULA = "a formula"
 """What a formula is called where it is `none`."""
@@ -85,10 +85,15 @@ Cells = tuple[Cell, ...]
 
 
 class Compiler:
-    """Makes Python functions of the terms of one theory; statics, definitions and preconditions are made once."""
+    """Makes Python functions of the terms of one theory; statics, definitions and preconditions are made once.
 
-    def __init__(self, theory: BasicActionTheory, layout: Layout) -> None:
+    ``ask`` has the functions behind ``knows(φ)``, ``possible(φ)`` and ``known(e)``: of the function that evaluates what
+    stands inside, and of what that is to be given.
+    """
+
+    def __init__(self, theory: BasicActionTheory, layout: Layout, ask: Mapping[str, Callable[..., bool]] = ASK) -> None:
         self.theory = theory
+        self._ask = ask
         self.layout = layout
         self.namespace: dict[str, Any] = {"__builtins__": __builtins__}
         self.uncertain = leaves_open(theory)
@@ -173,7 +178,7 @@ class Compiler:
                 return collections.made(self, term, cells, depth + 1)
             case Epistemic(kind=kind, body=body):
                 function, names = self._function_of(body, cells)
-                return f"{self.bind('ask', ASK[kind])}({', '.join([function, *names])})"
+                return f"{self.bind('ask', self._ask[kind])}({', '.join([function, *names])})"
             case Before(body=body):
                 function, names = self._function_of(body, cells)
                 return f"{self.bind('before', before)}({', '.join([function, *names])})"
@@ -189,11 +194,14 @@ class Compiler:
                 constant += stride * place.positions[index][value]
                 continue
             text = self.expression(arg, cells, depth)
-            if not fits(arg.type, type_):
+            if isinstance(type_, Interval):
+                if not includes(type_, arg.type):
+                    failure = guards.argument_failure(arg, place.fluent.name, type_)
+                    text = f"{self.bind('check', guards.check(type_, failure))}({text})"
+                constant -= stride * type_.low
+            elif not includes(type_, arg.type):
                 check = guards.Positions(place.positions[index], arg, place.fluent.name, type_)
                 text = f"{self.bind('position', check)}[{text}]"
-            elif isinstance(type_, Interval):
-                constant -= stride * type_.low
             else:
                 text = f"{self.bind('position', place.positions[index])}[{text}]"
             parts.append(text if stride == 1 else f"{text}*{stride}")
@@ -207,7 +215,7 @@ class Compiler:
         """An expression for a term that fails unless its value belongs to a type."""
         text = self.expression(term, cells, depth)
         known, value = known_value(term, cells)
-        if fits(term.type, type_) or (known and value in type_):
+        if includes(type_, term.type) or (known and value in type_):
             return text
         return f"{self.bind('check', guards.check(type_, failure))}({text})"
 
@@ -253,7 +261,7 @@ class Compiler:
 
     def _function_of(self, term: Term, cells: Cells) -> tuple[str, list[str]]:
         """The name of a function that evaluates a term, and the names of what it is to be given."""
-        names = ["s", *dict.fromkeys(cell.text.partition("[")[0] for cell in cells if not cell.known)]
+        names = [*dict.fromkeys(["s", *(cell.text.partition("[")[0] for cell in cells if not cell.known)])]
         return self._define(", ".join(names), [f"return {self.expression(term, cells)}"]), names
 
     def constant(self, value: Value) -> str:
@@ -391,16 +399,6 @@ def environment(depth: int) -> Cells:
 def variables(count: int) -> Cells:
     """The cells of parameters: Python variables of their own."""
     return tuple(Cell(f"v{level}") for level in range(count))
-
-
-def fits(inner: Type, outer: Type) -> bool:
-    """Whether the types alone prove that every value of the one belongs to the other."""
-    if inner.finite:
-        return includes(outer, inner)
-    if not inner.kinds <= outer.kinds or outer.finite:
-        return False
-    part, whole = strip_optional(inner), strip_optional(outer)
-    return not isinstance(part, Collection) or not isinstance(whole, Collection) or fits(part.element, whole.element)
 
 
 def leaves_open(theory: BasicActionTheory) -> bool:

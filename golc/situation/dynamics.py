@@ -6,22 +6,22 @@ so that no answer here gets slower with time.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeAlias, cast
+from typing import Any, TypeAlias
 
 from golc.diagnostics import Span
 from golc.situation.beginning import initial_state
 from golc.situation.branching import Branching
-from golc.situation.compile import Cells, Compiler, fits, variables
+from golc.situation.compile import Cells, Compiler, variables
 from golc.situation.interpret import Interpreter
 from golc.situation.knowing import Knowing, placed
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
-from golc.theory.fitting import describe
-from golc.theory.order import sort_key
+from golc.theory.fitting import describe, includes
+from golc.theory.order import spelt
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
 from golc.theory.theory import Action, BasicActionTheory, Effect
@@ -75,7 +75,7 @@ class Dynamics:
     def initial(self, given: Mapping[int, Value] = MappingProxyType({})) -> State:
         """The initial state; ``given`` are values of slots that replace those of the theory."""
         with deep_recursion(EVALUATION):
-            return initial_state(self.interpreter, given)
+            return initial_state(self.interpreter, self.compiler, given)
 
     def possible(self, state: State, action: str, args: Args) -> bool:
         """Whether the action's preconditions are known to hold."""
@@ -173,22 +173,23 @@ class Dynamics:
 
     def value(self, state: State, fluent: str, args: Args = ()) -> Value:
         """The value of a ground fluent; an ``Unknown`` if the worlds disagree."""
-        return self._in_order(fluent, shown(state)[self.layout.places[fluent].slot(args)])
+        place = self.layout.places[fluent]
+        return spelt(shown(state)[place.slot(args)], place.fluent.type)
 
     def values(self, state: State) -> Iterator[tuple[tuple[str, Args], Value]]:
-        """Each ground fluent, as name and arguments, with its value or an ``Unknown``."""
-        for ground, value in zip(self.layout.ground_fluents, shown(state), strict=True):
-            yield ground, self._in_order(ground[0], value)
-
-    def _in_order(self, fluent: str, value: Value) -> Value:
-        """Possible values in the order of the type: what is not known looks the same, however that came about."""
-        if not isinstance(value, Unknown):
-            return value
-        return Unknown(tuple(sorted(cast(Iterable[Any], value.values), key=sort_key(self.theory.fluents[fluent].type))))
+        """Each ground fluent, as name and arguments, with its value or an ``Unknown``, as they are to be written."""
+        fluents = self.theory.fluents
+        for (name, args), value in zip(self.layout.ground_fluents, shown(state), strict=True):
+            yield (name, args), spelt(value, fluents[name].type)
 
     def show(self, state: State) -> dict[str, Value]:
         """Each ground fluent as text with its value or an ``Unknown``."""
         return {show_call(*name): value for name, value in self.values(state)}
+
+    def call(self, action: str, args: Args) -> str:
+        """A ground action as text."""
+        parameters = self.theory.actions[action].parameters
+        return show_call(action, [spelt(arg, p.type) for arg, p in zip(args, parameters, strict=True)])
 
     def misfit(self, action: str, args: Args) -> str | None:
         """What is wrong with the arguments of a ground action, or none: their number or their types."""
@@ -276,7 +277,7 @@ class Dynamics:
         slot = self.compiler.slot(place, effect.args, cells)
         assert not isinstance(effect.value, Choice)
         lines = [f"i = {slot}", f"x = {self.compiler.expression(effect.value, cells)}"]
-        if not fits(effect.value.type, place.fluent.type):
+        if not includes(place.fluent.type, effect.value.type):
             values = self.compiler.bind("type", place.fluent.type)
             lines.append(f"if x not in {values}: {self.compiler.bind('outside', self._outside(effect))}(i, x)")
         if not collect:
@@ -322,10 +323,10 @@ def _signature(cells: Cells) -> str:
 def _may_conflict(action: Action) -> bool:
     """Whether two of an action's effects, or two bindings of one, might touch the same ground fluent."""
     fluents = [effect.fluent for effect in action.effects]
-    return len(set(fluents)) < len(fluents) or not all(_injective(effect) for effect in action.effects)
+    return len(set(fluents)) < len(fluents) or not all(is_injective(effect) for effect in action.effects)
 
 
-def _injective(effect: Effect) -> bool:
+def is_injective(effect: Effect) -> bool:
     """Whether different bindings certainly lead to different arguments: each bound variable is one of them."""
     args = {arg.level for arg in effect.args if isinstance(arg, Variable)}
     return all(binder.variable.level in args for binder in effect.binders)

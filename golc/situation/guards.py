@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 
 from golc.theory import errors
 from golc.theory.evaluate import DEPTH
+from golc.theory.order import arranged
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Operation, Quantified, Term
 from golc.theory.theory import Static
@@ -159,4 +160,4 @@ def removal(whole: tuple[Value, ...], gone: tuple[Value, ...]) -> tuple[Value, .
 
 def text(type_: Type) -> Callable[[Value], str]:
     """What a value of a type looks like in a text."""
-    return lambda value: show(value)
+    return lambda value: show(arranged(value, type_))

@@ -7,8 +7,10 @@ they are.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, TypeAlias
 
 from golc.diagnostics import NOWHERE
@@ -17,6 +19,7 @@ from golc.situation.interpret import Interpreter
 from golc.situation.worlds import State, TooManyCasesError, agreed, survey
 from golc.theory import errors
 from golc.theory.evaluate import Env
+from golc.theory.order import arranged, spelt
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Binder, DefinedTerm, FluentTerm, StaticTerm, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Parameter
@@ -54,11 +57,14 @@ class Knowing:
         return self._settled(function, *args)
 
     def shown(self, term: Term, depth: int) -> Asked:
-        """The value of a term, or an ``Unknown``: for a message."""
+        """The value of a term, or an ``Unknown``, as it is to be written in a message."""
         function = self.compiler.term(term, depth)
-        if not self.compiler.uncertain:
-            return function
-        return lambda state, env: agreed(answer for _, answer in survey(state, lambda world: function(world, env)))
+
+        def asked(state: State, env: Env) -> Value:
+            answers = (answer for _, answer in survey(state, lambda world: function(world, env)))
+            return arranged(agreed(answers), term.type)
+
+        return asked
 
     def known_true(self, function: Asked, terms: Sequence[Term]) -> Asked:
         """Whether what a compiled function of some formulas answers is true in all worlds."""
@@ -89,7 +95,7 @@ class Knowing:
                 return certain(state, env)
             found: Iterator[Env] = iter((env,))
             for step in steps:
-                found = (longer for shorter in found for longer in step(state, shorter))
+                found = itertools.chain.from_iterable(map(partial(step, state), found))
             return found if holds is None else (each for each in found if holds(state, each))
 
         return environments
@@ -113,10 +119,10 @@ class Knowing:
                 continue
             match part:
                 case Variable(name=name, level=level):
-                    values[name] = env[level]
+                    values[name] = spelt(env[level], part.type)
                 case FluentTerm(fluent=name, args=args) | DefinedTerm(definition=name, args=args):
                     of = tuple(self.evaluate(arg, state, env) for arg in args)
-                    values[show_call(name, of)] = self.evaluate(part, state, env)
+                    values[show_call(name, of)] = spelt(self.evaluate(part, state, env), part.type)
                 case StaticTerm():
                     continue
         return values

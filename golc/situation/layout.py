@@ -11,13 +11,19 @@ from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
 from math import prod
-from typing import TypeAlias
+from typing import Protocol, TypeAlias
 
 from golc.theory.theory import BasicActionTheory, Fluent
 from golc.theory.types import Type, Value
 
 World: TypeAlias = tuple[Value, ...]
 """One way the world may be: a value for each slot."""
+
+
+class Slots(Protocol):
+    """What a compiled term reads: the value in each slot."""
+
+    def __getitem__(self, slot: int, /) -> Value: ...
 
 
 @dataclass(frozen=True)

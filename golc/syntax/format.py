@@ -64,7 +64,7 @@ class _Statement:
                 yield ""
             *lines, last = self.row(place, place + len(row.words))
             yield from lines
-            yield last + (row.comment or "" if not row.words else f"  {row.comment}" if row.comment else "")
+            yield last + ("  " if row.words and row.comment else "") + (row.comment or "")
             place += len(row.words)
             opens = bool(row.words) and row.words[-1].type in OPENING
 
@@ -81,8 +81,9 @@ class _Statement:
 
     def indentation(self, start: int, end: int) -> int:
         """That of a line with these words: one that closes brackets stands below the line in which they open."""
-        words = self.breaks.words[start:end]
-        closed = next((count for count, word in enumerate(words) if word.type not in CLOSING), len(words))
+        closed = 0
+        while start + closed < end and self.breaks.words[start + closed].type in CLOSING:
+            closed += 1
         if closed:
             return self.brackets[-closed][0]
         return self.brackets[-1][1] if self.brackets else self.base

@@ -19,7 +19,6 @@ BEFORE = frozenset(_BEFORE.split())
 BEHIND = frozenset({"WHEN", "DOT"})
 """Before these, as at the end of a line or before the colon there, one ends."""
 
-
 PROTECTED = RESERVED | {"actions", "waiting"}
 """Names that parentheses keep apart from a word of the language: `when (waiting)`, `expect (actions[0] = 1)`."""
 

@@ -11,8 +11,11 @@ LARGEST = 16 * 2**20
 """Bytes: what is larger was not written by a person, and a device such as ``/dev/zero`` never ends."""
 
 
-def read_source(path: str | Path) -> Source:
-    """The text of a file, named as the user named it, without a byte order mark.
+DOMAIN_LINE = "a file begins with its domain line: `domain delivery`"
+
+
+def read_source(path: str | Path, empty: str = DOMAIN_LINE) -> Source:
+    """The text of a file, named as the user named it, without a byte order mark; ``empty`` helps with one without text.
 
     Raises ``UserError`` if it is missing, no file, too large, binary, not UTF-8 (with the place of the byte) or empty.
     """
@@ -21,22 +24,22 @@ def read_source(path: str | Path) -> Source:
         raise _unreadable(name, "a file has a name")
     try:
         with Path(path).open("rb") as file:
-            return read_stream(name, file)
+            return read_stream(name, file, empty)
     except (OSError, ValueError) as error:
         raise _unreadable(name, _reason(error)) from None
 
 
-def read_stream(name: str, stream: BinaryIO) -> Source:
+def read_stream(name: str, stream: BinaryIO, empty: str = DOMAIN_LINE) -> Source:
     """The text of an open file, as ``read_source`` has it."""
     data = stream.read(LARGEST + 1)
     if len(data) > LARGEST:
         raise _unreadable(name, f"it is larger than {LARGEST // 2**20} MiB")
-    return Source(name, _decoded(name, data))
+    return Source(name, _decoded(name, data, empty))
 
 
-def _decoded(name: str, data: bytes) -> str:
+def _decoded(name: str, data: bytes, empty: str) -> str:
     if not data:
-        raise _unreadable(name, "it is empty", help="a file begins with its domain line: `domain delivery`")
+        raise _unreadable(name, "it is empty", help=empty)
     if data.startswith((b"\xff\xfe", b"\xfe\xff")):
         raise _unreadable(name, "it is UTF-16, not UTF-8", help="save it as UTF-8 in your editor")
     if b"\0" in data:

@@ -145,10 +145,6 @@ class Context:
     ) -> None:
         self.findings.error(code, message, span, marker, help, labels)
 
-    def unsupported(self, what: str, span: Span) -> None:
-        """A part of the language that golc understands but cannot carry out yet."""
-        self.error(Code.UNSUPPORTED, f"{what} not supported yet", span, "not supported yet")
-
     def missing(self, code: Code, message: str, span: Span, help: str) -> None:
         """A name that is declared nowhere and is like no other: one finding, however often it is used."""
         finding = Diagnostic(code, message, span, Severity.ERROR, "not declared", help=help)

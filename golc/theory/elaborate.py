@@ -79,8 +79,8 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
     """Where nothing is wrong so far, imports have been joined, or there is no file whose folder they could be in."""
     for node in file.declarations:
         if isinstance(node, tree.Import):
-            message = "`import` is not supported in a text that is no file"
-            findings.error(Code.UNSUPPORTED, message, node.span, "relative to no folder")
+            message = "there can be no `import` in a text that is no file"
+            findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
 def _unread(file: tree.File, source: Source) -> frozenset[str]:

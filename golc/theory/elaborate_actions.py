@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 from golc.diagnostics import Code, Label, Span
 from golc.syntax import tree
 from golc.theory.context import Context, Signature
+from golc.theory.elaborate_collections import determined
 from golc.theory.elaborate_knowledge import new_value
 from golc.theory.elaborate_names import unknown_fluent
-from golc.theory.elaborate_terms import arguments, bind, fitting, formula, term
+from golc.theory.elaborate_terms import arguments, bind, formula, number, term
 from golc.theory.elaborate_types import LARGEST, elaborate_type, parameters
 from golc.theory.elaborate_values import closed_term, parameter_scope
 from golc.theory.expectations import fits
@@ -16,7 +19,7 @@ from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.suggest import did_you_mean
 from golc.theory.terms import Choice, Literal, Term
 from golc.theory.theory import Action, Definition, Effect, Fluent
-from golc.theory.types import BOOL, INT
+from golc.theory.types import BOOL, show
 
 SOURCES = ("rcx", "operator", "host", "self")
 """The kinds of device; who may report an exogenous action is one of them, or a device by its name."""
@@ -99,7 +102,7 @@ def definition(context: Context, entry: Entry) -> Definition | None:
         return None if condition.type is BROKEN else Definition(entry.name, (), BOOL, condition, span=entry.span)
     assert isinstance(node, tree.Define)
     found = parameters(context, node.parameters, f"definition `{entry.name}`", infinite=True)
-    body = term(context, parameter_scope(context, found, node.parameters), node.body)
+    body = determined(context, term(context, parameter_scope(context, found, node.parameters), node.body))
     if body.type is BROKEN or BROKEN in [parameter.type for parameter in found]:
         return None
     return Definition(entry.name, found, body.type, body, span=entry.span)
@@ -133,7 +136,7 @@ def action(context: Context, entry: Entry) -> Action | None:
                 effects.extend(_effect(context, scope, clause))
             case tree.Senses(value=value):
                 _only_primitive(context, exogenous, "senses", clause.span, entry)
-                senses.append(term(context, scope, value))
+                senses.append(determined(context, term(context, scope, value)))
             case tree.Cost(value=value):
                 _only_primitive(context, exogenous, "costs", clause.span, entry)
                 costs.append((clause.span, _cost(context, scope, value)))
@@ -168,9 +171,9 @@ def _one_cost(context: Context, entry: Entry, spans: list[Span]) -> None:
 
 
 def _cost(context: Context, scope: Scope, node: tree.Expr) -> Term:
-    cost = fitting(context, scope, node, INT, "`cost`")
-    if isinstance(cost, Literal) and isinstance(cost.value, int) and cost.value < 0:
-        context.error(Code.OUTSIDE_TYPE, f"the cost {cost.value} is negative", node.span, "at least 0")
+    cost = number(context, scope, node, "`cost`")
+    if isinstance(cost, Literal) and isinstance(cost.value, int | Fraction) and cost.value < 0:
+        context.error(Code.OUTSIDE_TYPE, f"the cost {show(cost.value)} is negative", node.span, "at least 0")
     return cost
 
 

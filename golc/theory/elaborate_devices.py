@@ -20,7 +20,7 @@ from golc.theory.scope import Entry, Kind
 from golc.theory.suggest import did_you_mean
 from golc.theory.terms import Literal, Term
 from golc.theory.theory import Binding, ByCall, ByPrompt, ByStart, Device, Fixed, Parameter, Setting
-from golc.theory.types import INT, Type, Value
+from golc.theory.types import INT, REAL, Type, Value
 
 
 @dataclass(frozen=True)
@@ -109,14 +109,8 @@ def _setting(context: Context, node: tree.Setting, settings: Mapping[str, Settin
 
 def _quantity(context: Context, node: tree.Expr) -> Fraction | None:
     """A number that may have decimals."""
-    match node:
-        case tree.Real(value=value):
-            return Fraction(value)
-        case tree.Unary(op="-", operand=tree.Real(value=value)):
-            return -Fraction(value)
-        case _:
-            found = context.constants(context, node, INT)
-            return None if found is None or not isinstance(found.value, int) else Fraction(found.value)
+    found = context.constants(context, node, REAL)
+    return Fraction(found.value) if found is not None and isinstance(found.value, int | Fraction) else None
 
 
 # ---- bindings

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from typing import Literal as OneOf
+from collections.abc import Iterable
 
 from golc.diagnostics import Code, Span
 from golc.syntax import tree
 from golc.theory.context import Context
 from golc.theory.elaborate_terms import fitting, formula, term
 from golc.theory.elaborate_types import LARGEST
-from golc.theory.expectations import broken, fits, mismatch, shown
-from golc.theory.fitting import BROKEN, describe, join, overlap, size
+from golc.theory.expectations import fits, mismatch, shown
+from golc.theory.fitting import BROKEN, collection, describe, overlap, size
 from golc.theory.reading import reached
 from golc.theory.scope import Scope
 from golc.theory.terms import Choice, DefinedTerm, Display, Epistemic, Literal, PossTerm, Term, subterms
@@ -55,39 +54,22 @@ def _one_of(context: Context, scope: Scope, node: tree.OneOf, type_: Type, what:
 
 def _among(context: Context, scope: Scope, node: tree.Expr, type_: Type, what: str) -> Term | None:
     """The collection of the values that are possible, whose elements fit a type."""
-    found = _listed(context, scope, node, type_)
+    is_set = isinstance(node, tree.SetLiteral) or (isinstance(node, tree.Comprehension) and node.kind == "set")
+    found = term(context, scope, node, BROKEN if type_ is BROKEN else Collection("set" if is_set else "list", type_))
     if found.type is BROKEN or type_ is BROKEN:
         return None
-    if not isinstance(found.type, Collection):
+    whole = collection(found.type)
+    if whole is None:
         message = f"`one of` chooses from a set or list, and this is of type {describe(found.type)}"
         help_ = f"write `one of {{{node.span.text}}}`"
         context.error(Code.TYPE_MISMATCH, message, node.span, "not a set or list", help_)
         return None
-    if not overlap(found.type.element, type_):
+    needed = Collection(whole.kind, type_)
+    if not overlap(whole.element, type_):
         relational = "a fluent without a type is relational, true or false" if type_ == BOOL else None
-        mismatch(context, found, describe(Collection(found.type.kind, type_)), what, relational)
+        mismatch(context, found, describe(needed), f"`one of` for {what}", relational)
         return None
-    elements = found.elements if isinstance(found, Display) else ()
-    good = [fits(context, element, type_, what) for element in elements]
-    return None if False in good else found
-
-
-def _listed(context: Context, scope: Scope, node: tree.Expr, type_: Type) -> Term:
-    if not isinstance(node, tree.SetLiteral | tree.ListLiteral):
-        return term(context, scope, node, Collection("list", type_))
-    elements = tuple([term(context, scope, element, type_) for element in node.elements])
-    if any(element.type is BROKEN for element in elements):
-        return broken(node.span)
-    kind: OneOf["set", "list"] = "set" if isinstance(node, tree.SetLiteral) else "list"
-    return Display(elements, type=Collection(kind, _joined(elements, type_)), span=node.span)
-
-
-def _joined(elements: Sequence[Term], needed: Type) -> Type:
-    """A type that all elements of a collection have; that of the fluent where their own have nothing in common."""
-    found: Type | None = elements[0].type if elements else None
-    for element in elements[1:]:
-        found = found and join(found, element.type)
-    return found or needed
+    return found if fits(context, found, needed, what) else None
 
 
 def initially(context: Context, nodes: Iterable[tree.Initially]) -> tuple[Term, ...]:

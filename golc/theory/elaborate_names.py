@@ -8,11 +8,12 @@ from typing import TypeAlias
 from golc.diagnostics import Code, Label
 from golc.syntax import tree
 from golc.theory.context import Context, Signature
-from golc.theory.elaborate_types import home
-from golc.theory.fitting import BROKEN, strip_optional
+from golc.theory.declare import BUILTIN_TYPES
+from golc.theory.elaborate_types import LARGEST, home, named_type
+from golc.theory.fitting import BROKEN, size, strip_optional
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import Literal, Variable
-from golc.theory.types import BOOL, Enumeration, Type, show
+from golc.theory.types import BOOL, Collection, Enumeration, Type, show
 
 CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.GOAL, Kind.INVARIANT)
 TERMS = (*CALLS, Kind.CONSTANT, Kind.SYMBOL)
@@ -33,6 +34,8 @@ def resolve(context: Context, scope: Scope, node: tree.Apply, hint: Type | None)
         _no_arguments(context, node, "a variable", None)
         return None
     entry = context.names.values.get(node.name.text)
+    if entry is None and node.name.text in BUILTIN_TYPES and not node.args:
+        return _listed(context, node.name)
     if entry is None:
         _unknown_term(context, scope, node, hint)
         return None
@@ -47,9 +50,11 @@ def resolve(context: Context, scope: Scope, node: tree.Apply, hint: Type | None)
             return Literal(entry.name, type=home(context, entry), span=node.span)
         case Kind.STATIC if not entry.arity and not node.args:
             return _fixed(context, entry, node)
-        case Kind.TYPE:
-            context.unsupported(f"the list of the values of `{entry.name}` is", node.name.span)
+        case Kind.TYPE if node.args:
+            _no_arguments(context, node, entry.kind.phrase, entry)
             return None
+        case Kind.TYPE:
+            return _listed(context, node.name)
         case _:
             return context.signature(entry)
 
@@ -60,6 +65,36 @@ def _fixed(context: Context, entry: Entry, node: tree.Apply) -> Literal | None:
     if static is None or not isinstance(static.body, Literal):
         return None
     return Literal(static.body.value, type=static.type, span=node.span)
+
+
+def _listed(context: Context, name: tree.Ident) -> Literal | None:
+    """The list of the values of a type."""
+    type_ = named_type(context, name)
+    if type_ is BROKEN:
+        return None
+    if type_.finite and size(type_) <= LARGEST:
+        return Literal(tuple(type_.values), type=Collection("list", type_), span=name.span)
+    marker = f"has more than {LARGEST} values" if type_.finite else "cannot be enumerated"
+    context.error(Code.BAD_TYPE, f"`{name.text}` cannot stand for the list of its values", name.span, marker)
+    return None
+
+
+def is_type(context: Context, scope: Scope, name: tree.Ident) -> bool:
+    """Whether a name stands for a type."""
+    if scope.get(name.text) is not None:
+        return False
+    entry = context.names.values.get(name.text)
+    return name.text in BUILTIN_TYPES or (entry is not None and entry.kind is Kind.TYPE)
+
+
+def is_misspelt_type(context: Context, scope: Scope, name: tree.Ident) -> bool:
+    """Whether an unknown name behind ``in`` was probably to be a type, not a set or a list."""
+    if scope.get(name.text) is not None or name.text in context.names.values.entries:
+        return False
+    names = context.names
+    if names.similar(name.text, [Kind.TYPE], variables=BUILTIN_TYPES) is not None:
+        return True
+    return names.similar(name.text, TERMS, 0, tuple(scope.locals)) is None
 
 
 def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding, entry: Entry, given: int) -> bool:

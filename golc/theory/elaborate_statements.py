@@ -8,13 +8,15 @@ from golc.diagnostics import Code, Label
 from golc.syntax import tree
 from golc.theory import statements as typed
 from golc.theory.context import Context, Signature
+from golc.theory.elaborate_collections import determined
 from golc.theory.elaborate_names import doing
-from golc.theory.elaborate_terms import arguments, bind, fitting, formula, term
+from golc.theory.elaborate_terms import arguments, bind, fitting, formula, message_parts, number, term
 from golc.theory.elaborate_types import parameters
 from golc.theory.elaborate_values import parameter_scope
 from golc.theory.scope import Entry, Kind, Scope
+from golc.theory.terms import Literal
 from golc.theory.theory import Procedure
-from golc.theory.types import BOOL, INT
+from golc.theory.types import BOOL, INT, show
 
 
 def procedure_signature(context: Context, entry: Entry) -> Signature:
@@ -67,7 +69,7 @@ def statement(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
             where = None if node.where is None else formula(context, inner, node.where, "`where`")
             return typed.Pick(binders, where, block(context, inner, node.body), span=span)
         case tree.Let(name=name, value=value, body=body):
-            found = term(context, scope, value)
+            found = determined(context, term(context, scope, value))
             inner, variable = scope.bind(name, found.type)
             return typed.Let(variable, found, block(context, inner, body), span=span)
         case tree.Interrupts(handlers=handlers):
@@ -86,7 +88,7 @@ def statement(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
 
 def spoken(context: Context, scope: Scope, node: tree.Message) -> typed.Message:
     """A message with its terms."""
-    return typed.Message(tuple([part if isinstance(part, str) else term(context, scope, part) for part in node.parts]))
+    return typed.Message(message_parts(context, scope, node))
 
 
 def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Statement:
@@ -119,9 +121,10 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
 
 
 def _seconds(context: Context, scope: Scope, node: tree.Expr) -> typed.Duration:
-    if isinstance(node, tree.Real):
-        return Fraction(node.value)
-    return fitting(context, scope, node, INT, "a time in seconds")
+    found = number(context, scope, node, "a time in seconds")
+    if isinstance(found, Literal) and isinstance(found.value, int | Fraction) and found.value < 0:
+        context.error(Code.OUTSIDE_TYPE, f"the time {show(found.value)} s is negative", node.span, "at least 0")
+    return found.value if isinstance(found, Literal) and isinstance(found.value, Fraction) else found
 
 
 def _blocks(context: Context, scope: Scope, nodes: tuple[tree.Block, ...]) -> tuple[typed.Statement, ...]:

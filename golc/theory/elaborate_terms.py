@@ -8,16 +8,38 @@ from __future__ import annotations
 
 import itertools
 from dataclasses import replace
+from fractions import Fraction
 from typing import cast
 
 from golc.diagnostics import Code, Span
 from golc.syntax import tree
+from golc.theory import types
 from golc.theory.context import Context, Signature
-from golc.theory.elaborate_names import arity_fits, doing, resolve
+from golc.theory.elaborate_collections import (
+    CollectionKind,
+    combined,
+    comprehension,
+    determined,
+    display,
+    end,
+    indexed,
+    length,
+    of_elements,
+)
+from golc.theory.elaborate_names import arity_fits, doing, is_misspelt_type, is_type, resolve
 from golc.theory.elaborate_types import elaborate_type, finite_type, named_type, unknown_type
-from golc.theory.expectations import broken, fits
-from golc.theory.fitting import BROKEN
-from golc.theory.relations import conditional, equality, numeric, one_of, ordering, within_type
+from golc.theory.expectations import as_number, broken, fits, mismatch
+from golc.theory.fitting import BROKEN, collection, is_undetermined
+from golc.theory.relations import (
+    conditional,
+    equality,
+    numeric,
+    numeric_type,
+    one_of,
+    ordering,
+    within_collection,
+    within_type,
+)
 from golc.theory.scope import Kind, Scope
 from golc.theory.terms import (
     Before,
@@ -32,9 +54,10 @@ from golc.theory.terms import (
     Quantified,
     StaticTerm,
     Term,
+    Text,
     Variable,
 )
-from golc.theory.types import BOOL, INT, NONE, Type
+from golc.theory.types import BOOL, INT, NONE, REAL, STRING, Collection, Type
 
 LOGIC = {"and": Operator.AND, "or": Operator.OR, "implies": Operator.IMPLIES, "iff": Operator.IFF}
 EQUALITY = {"=": Operator.EQUAL, "!=": Operator.DIFFERENT}
@@ -64,43 +87,42 @@ def term(context: Context, scope: Scope, node: tree.Expr, hint: Type | None = No
     match node:
         case tree.Number(value=value):
             return Literal(value, type=INT, span=node.span)
+        case tree.Real(value=decimal):
+            return Literal(types.number(Fraction(decimal)), type=REAL, span=node.span)
         case tree.Truth(value=value):
             return Literal(value, type=BOOL, span=node.span)
         case tree.Nothing():
             return Literal(None, type=NONE, span=node.span)
         case tree.Apply():
             return _apply(context, scope, node, hint)
+        case tree.Message():
+            return _text(context, scope, node)
         case tree.Unary():
             return _unary(context, scope, node)
         case tree.Binary():
-            return _binary(context, scope, node)
+            return _binary(context, scope, node, hint)
         case tree.IfElse():
             return _conditional(context, scope, node, hint)
         case tree.Quantifier():
             return _quantifier(context, scope, node)
         case tree.Extremum(kind=kind, args=args):
             op = Operator.MINIMUM if kind == "min" else Operator.MAXIMUM
-            return numeric(context, op, [_integer(context, scope, arg, f"`{kind}`") for arg in args], node.span)
+            return numeric(context, op, [number(context, scope, arg, f"`{kind}`") for arg in args], node.span)
+        case tree.SetLiteral(elements=elements):
+            return _display(context, scope, "set", elements, hint, node.span)
+        case tree.ListLiteral(elements=elements):
+            return _display(context, scope, "list", elements, hint, node.span)
+        case tree.Comprehension():
+            return _comprehension(context, scope, node, hint)
+        case tree.Index(base=base, index=index):
+            return indexed(context, term(context, scope, base), term(context, scope, index), node.span)
         case tree.Epistemic():
             return _epistemic(context, scope, node)
-        case _:
-            if hint is not BROKEN:  # otherwise it is of a type that is not supported, which has been said
-                context.unsupported(_unsupported(node), node.span)
-            return broken(node.span)
 
 
-def _unsupported(node: tree.Expr) -> str:
-    match node:
-        case tree.Real():
-            return "real numbers are"
-        case tree.Message():
-            return "strings outside of messages are"
-        case tree.Index():
-            return "indexing is"
-        case tree.Comprehension(kind=kind):
-            return f"{kind} comprehensions are"
-        case _:
-            return "sets and lists as values are"
+def number(context: Context, scope: Scope, node: tree.Expr, what: str) -> Term:
+    """A term whose values may be numbers; ``what`` says for what it is needed."""
+    return as_number(context, term(context, scope, node, REAL), what)
 
 
 # ---- names
@@ -108,7 +130,7 @@ def _unsupported(node: tree.Expr) -> str:
 
 def _apply(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> Term:
     if node.args and node.name.text in ("abs", "poss", "len", "first", "rest", "before"):
-        return _function(context, scope, node)
+        return _function(context, scope, node, hint)
     found = resolve(context, scope, node, hint)
     match found:
         case Variable():
@@ -150,21 +172,24 @@ def arguments(context: Context, scope: Scope, node: tree.Apply, signature: Signa
     )
 
 
-def _function(context: Context, scope: Scope, node: tree.Apply) -> Term:
-    name, given = node.name.text, len(node.args)
-    if name in ("abs", "poss", "before") and given != 1:
+def _function(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> Term:
+    name, given, argument = node.name.text, len(node.args), node.args[0]
+    if given != 1:
         message = f"`{name}` takes 1 argument, not {given}"
         context.error(Code.ARITY, message, node.name.span, f"{given} arguments here")
         return broken(node.span)
-    if name == "abs":
-        operand = _integer(context, scope, node.args[0], "`abs`")
-        return numeric(context, Operator.ABSOLUTE, [operand], node.span)
-    if name == "poss":
-        return _poss(context, scope, node.args[0], node.span)
-    if name == "before":
-        return _before(context, scope, node.args[0], node.span)
-    context.unsupported(f"`{name}(…)` is", node.span)
-    return broken(node.span)
+    match name:
+        case "abs":
+            return numeric(context, Operator.ABSOLUTE, [number(context, scope, argument, "`abs`")], node.span)
+        case "poss":
+            return _poss(context, scope, argument, node.span)
+        case "len":
+            return length(context, term(context, scope, argument), node.span)
+        case "first" | "rest":
+            op = Operator.FIRST if name == "first" else Operator.REST
+            return end(context, op, term(context, scope, argument, hint if name == "rest" else None), node.span)
+        case _:
+            return _before(context, scope, argument, node.span)
 
 
 def _poss(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term:
@@ -207,29 +232,27 @@ def _before(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term
 # ---- operators
 
 
-def _integer(context: Context, scope: Scope, node: tree.Expr, what: str) -> Term:
-    return fitting(context, scope, node, INT, what)
-
-
 def _unary(context: Context, scope: Scope, node: tree.Unary) -> Term:
     if node.op == "-":
-        return numeric(context, Operator.NEGATE, [_integer(context, scope, node.operand, "`-`")], node.span)
+        return numeric(context, Operator.NEGATE, [number(context, scope, node.operand, "`-`")], node.span)
     operand = formula(context, scope, node.operand, "`not`")
     return Operation(Operator.NOT, (operand,), type=BOOL, span=node.span)
 
 
-def _binary(context: Context, scope: Scope, node: tree.Binary) -> Term:
+def _binary(context: Context, scope: Scope, node: tree.Binary, hint: Type | None) -> Term:
     # A chain of operators leans to the left: walk down it in a loop, and put equal ones of `and` or `or` into one.
     chain = [node]
     while isinstance(chain[-1].left, tree.Binary):
         chain.append(chain[-1].left)
-    left = term(context, scope, chain[-1].left)
+    if any(binary.op not in ("+", "-") for binary in chain):
+        hint = None  # the operands are of another type than the whole
+    left = term(context, scope, chain[-1].left, hint)
     for op, group in itertools.groupby(reversed(chain), key=lambda binary: binary.op):
         if op in ("and", "or"):
             left = _junction(context, scope, left, [*group])
         else:
             for binary in group:
-                left = _infix(context, scope, binary, left)
+                left = _infix(context, scope, binary, left, hint)
     return left
 
 
@@ -242,7 +265,7 @@ def _junction(context: Context, scope: Scope, left: Term, group: list[tree.Binar
     return Operation(LOGIC[op], tuple(args), type=BOOL, span=group[-1].span)
 
 
-def _infix(context: Context, scope: Scope, node: tree.Binary, left: Term) -> Term:
+def _infix(context: Context, scope: Scope, node: tree.Binary, left: Term, hint: Type | None) -> Term:
     op, span = node.op, node.span
     if op in ("in", "not in"):
         found = _membership(context, scope, left, node.right, span)
@@ -251,9 +274,15 @@ def _infix(context: Context, scope: Scope, node: tree.Binary, left: Term) -> Ter
     if op in LOGIC:
         left = left if fits(context, left, BOOL, f"`{op}`") else broken(left.span)
         return Operation(LOGIC[op], (left, formula(context, scope, right_node, f"`{op}`")), type=BOOL, span=span)
+    if op in ("+", "-") and collection(left.type) is not None:
+        right = term(context, scope, right_node, hint if is_undetermined(left.type) else left.type)
+        return combined(context, op, left, right, hint, span)
     if op in ARITHMETIC:
-        left = left if fits(context, left, INT, f"`{op}`") else broken(left.span)
-        right = fitting(context, scope, right_node, BROKEN if left.type is BROKEN else INT, f"`{op}`")
+        left = as_number(context, left, f"`{op}`")
+        if left.type is BROKEN:
+            right = term(context, scope, right_node, BROKEN)
+        else:
+            right = number(context, scope, right_node, f"`{op}`")
         return numeric(context, ARITHMETIC[op], [left, right], span)
     right = term(context, scope, right_node, left.type)
     if op in EQUALITY:
@@ -263,30 +292,20 @@ def _infix(context: Context, scope: Scope, node: tree.Binary, left: Term) -> Ter
 
 def _membership(context: Context, scope: Scope, element: Term, node: tree.Expr | tree.IntervalType, span: Span) -> Term:
     match node:
-        case tree.SetLiteral(elements=elements):
+        case tree.SetLiteral(elements=elements) | tree.ListLiteral(elements=elements):
             choices = [term(context, scope, choice, element.type) for choice in elements]
-            return one_of(context, element, choices, span)
+            return one_of(context, element, choices, span, node.span)
         case tree.IntervalType():
             within = elaborate_type(context, node)
-        case tree.Apply(name=name, args=()) if _is_type(context, scope, name):
+        case tree.Apply(name=name, args=()) if is_type(context, scope, name):
             within = named_type(context, name)
-        case tree.Apply(name=name, args=()) if (
-            scope.get(name.text) is None and name.text not in context.names.values.entries
-        ):
+        case tree.Apply(name=name, args=()) if is_misspelt_type(context, scope, name):
             unknown_type(context, name)
             return broken(span)
         case _:
-            if term(context, scope, node).type is not BROKEN:
-                context.unsupported("`in` a set or list value is", node.span)
-            return broken(span)
+            hint = None if element.type is BROKEN else Collection("list", element.type)
+            return within_collection(context, element, term(context, scope, node, hint), span)
     return within_type(context, element, within, span)
-
-
-def _is_type(context: Context, scope: Scope, name: tree.Ident) -> bool:
-    if scope.get(name.text) is not None:
-        return False
-    entry = context.names.values.get(name.text)
-    return name.text in ("bool", "int", "real", "string") or (entry is not None and entry.kind is Kind.TYPE)
 
 
 def _conditional(context: Context, scope: Scope, node: tree.IfElse, hint: Type | None) -> Term:
@@ -300,26 +319,67 @@ def _conditional(context: Context, scope: Scope, node: tree.IfElse, hint: Type |
 
 
 def bind(context: Context, scope: Scope, nodes: tuple[tree.Binder, ...]) -> tuple[Scope, tuple[Binder, ...]]:
-    """The scope inside some binders. What runs over a collection is bound, too, so that it is known in the body."""
+    """The scope inside some binders, each of which may speak of those before it."""
     found = []
     for node in nodes:
-        if node.type is None:
-            collection = cast(tree.Expr, node.collection)
-            context.unsupported(f"`{node.name.text} in …` over a set or list is", collection.span)
-            type_: Type = BROKEN
-        else:
-            type_ = finite_type(context, node.type, f"variable `{node.name.text}`")
+        type_, within = _range(context, scope, node)
         scope, variable = scope.bind(node.name, type_)
-        found.append(Binder(variable))
+        found.append(Binder(variable, within))
     return scope, tuple(found)
+
+
+def _range(context: Context, scope: Scope, node: tree.Binder) -> tuple[Type, Term | None]:
+    """The type of a bound variable, and the set or list that it runs over unless it runs over its type."""
+    what = f"variable `{node.name.text}`"
+    match node:
+        case tree.Binder(type=type_) if type_ is not None:
+            return finite_type(context, type_, what), None
+        case tree.Binder(collection=tree.Apply(name=name, args=())) if is_type(context, scope, name):
+            return finite_type(context, tree.TypeName(name, span=name.span), what), None
+    within = determined(context, term(context, scope, cast(tree.Expr, node.collection)))
+    whole = collection(within.type)
+    if whole is None and within.type is not BROKEN:
+        mismatch(context, within, "a set or a list", f"`{node.name.text} in …`")
+    return (BROKEN, None) if whole is None else (whole.element, within)
+
+
+# ---- sets, lists, messages
+
+
+def _display(
+    context: Context, scope: Scope, kind: CollectionKind, nodes: tuple[tree.Expr, ...], hint: Type | None, span: Span
+) -> Term:
+    inside = of_elements(hint)
+    return display(context, kind, [term(context, scope, node, inside) for node in nodes], hint, span)
+
+
+def _comprehension(context: Context, scope: Scope, node: tree.Comprehension, hint: Type | None) -> Term:
+    inner, binders = bind(context, scope, node.binders)
+    where = None if node.where is None else formula(context, inner, node.where, "`where`")
+    element = term(context, inner, node.element, of_elements(hint))
+    return comprehension(node.kind, binders, where, element, node.span)
+
+
+def _text(context: Context, scope: Scope, node: tree.Message) -> Term:
+    parts = message_parts(context, scope, node)
+    if all(isinstance(part, str) for part in parts):
+        return Literal("".join(map(str, parts)), type=STRING, span=node.span)
+    if any(not isinstance(part, str) and part.type is BROKEN for part in parts):
+        return broken(node.span)
+    return Text(parts, type=STRING, span=node.span)
+
+
+def message_parts(context: Context, scope: Scope, node: tree.Message) -> tuple[str | Term, ...]:
+    """The pieces of text and the terms of a message."""
+    return tuple([part if isinstance(part, str) else term(context, scope, part) for part in node.parts])
 
 
 def _quantifier(context: Context, scope: Scope, node: tree.Quantifier) -> Term:
     inner, binders = bind(context, scope, node.binders)
     where = None if node.where is None else formula(context, inner, node.where, "`where`")
     logical = node.kind in ("exists", "forall", "count")
-    body = fitting(context, inner, node.body, BOOL if logical else INT, f"`{node.kind}`")
-    if any(binder.variable.type is BROKEN for binder in binders):
+    body = (formula if logical else number)(context, inner, node.body, f"`{node.kind}`")
+    if BROKEN in [body.type, *[binder.variable.type for binder in binders]]:
         return broken(node.span)
-    type_ = BOOL if node.kind in ("exists", "forall") else INT
+    type_ = BOOL if node.kind in ("exists", "forall") else INT if logical else numeric_type([body])
     return Quantified(node.kind, binders, where, body, type=type_, span=node.span)

@@ -12,7 +12,7 @@ from golc.theory.declare import BUILTIN_TYPES
 from golc.theory.fitting import BROKEN, describe, members, size
 from golc.theory.scope import Entry, Kind
 from golc.theory.theory import Parameter
-from golc.theory.types import BOOL, INT, Enumeration, Interval, Optional, Type, Value
+from golc.theory.types import INT, REAL, Collection, Enumeration, Interval, Optional, Primitive, Type, Value
 
 LARGEST = 1_000_000
 """How many values may have to be enumerated: the instances of a fluent, the values of a variable."""
@@ -33,8 +33,8 @@ def elaborate_type(context: Context, node: tree.Type) -> Type:
             type_ = elaborate_type(context, base)
             return type_ if type_ is BROKEN or isinstance(type_, Optional) else Optional(type_)
         case tree.CollectionType(kind=kind):
-            context.unsupported(f"`{kind}[…]` types are", node.span)
-            return BROKEN
+            element = elaborate_type(context, node.element)
+            return element if element is BROKEN else Collection(kind, element)
 
 
 def finite_type(context: Context, node: tree.Type, what: str) -> Type:
@@ -43,9 +43,10 @@ def finite_type(context: Context, node: tree.Type, what: str) -> Type:
     if type_ is BROKEN:
         return type_
     if not type_.finite:
-        help_ = "give a range, for example `1..10`, or a declared type"
+        number = not type_.kinds.isdisjoint(REAL.kinds)
+        help_ = "give a range, for example `1..10`, or a declared type" if number else None
         message = f"{what} has to be of a type that can be enumerated, and `{type_}` cannot"
-        context.error(Code.BAD_TYPE, message, node.span, "has no end", help_)
+        context.error(Code.BAD_TYPE, message, node.span, "has no end" if number else "cannot be enumerated", help_)
         return BROKEN
     if size(type_) > LARGEST:
         context.error(Code.BAD_TYPE, f"{what} has more than {LARGEST} values", node.span, "too many to enumerate")
@@ -66,14 +67,8 @@ def declared_type(context: Context, entry: Entry) -> Type | None:
 
 def named_type(context: Context, name: tree.Ident) -> Type:
     """A declared or built-in type by its name."""
-    match name.text:
-        case "bool":
-            return BOOL
-        case "int":
-            return INT
-        case "real" | "string" as other:
-            context.unsupported(f"values of type `{other}` are", name.span)
-            return BROKEN
+    if name.text in BUILTIN_TYPES:
+        return Primitive(name.text)
     entry = context.names.values.get(name.text)
     if entry is None:
         unknown_type(context, name)
@@ -90,7 +85,7 @@ def unknown_type(context: Context, name: tree.Ident) -> None:
     if context.names.assumes(name.text):
         return
     message = f"unknown type `{name.text}`"
-    similar = context.names.similar(name.text, [Kind.TYPE], variables=BUILTIN_TYPES[:2])
+    similar = context.names.similar(name.text, [Kind.TYPE], variables=BUILTIN_TYPES)
     if similar is None:
         context.missing(Code.UNKNOWN_TYPE, message, name.span, f"declare it: `type {name.text} = …`")
     else:
@@ -111,7 +106,7 @@ def home(context: Context, entry: Entry) -> Type:
 def parameters(
     context: Context, nodes: tuple[tree.Parameter, ...], what: str, infinite: bool = False
 ) -> tuple[Parameter, ...]:
-    """The parameters of a declaration; ``infinite`` if they may be of type ``int``. ``what`` names its owner."""
+    """The parameters of a declaration; ``infinite`` if they may be of any type. ``what`` names its owner."""
     found: list[Parameter] = []
     for node in nodes:
         described = f"parameter `{node.name.text}` of {what}"

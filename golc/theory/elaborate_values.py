@@ -9,10 +9,11 @@ from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree
 from golc.theory.closed import NoValueError
 from golc.theory.context import Context, Signature
+from golc.theory.elaborate_collections import determined
 from golc.theory.elaborate_terms import term
 from golc.theory.elaborate_types import elaborate_type, parameters
 from golc.theory.expectations import fits
-from golc.theory.fitting import BROKEN, describe, size
+from golc.theory.fitting import BROKEN, describe, may_be, size
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, Literal, PossTerm, Term, subterms
 from golc.theory.theory import Constant, Parameter, Static
@@ -57,7 +58,13 @@ def situational(context: Context, definition: str) -> bool:
 
 def constant_value(context: Context, node: tree.Expr, expected: Type | None) -> Literal | None:
     """The value of a closed expression, as a literal with the type of the expression."""
-    found = term(context, Scope(), node, expected)
+    return _value(context, node, expected, expected)
+
+
+def _value(context: Context, node: tree.Expr, expected: Type | None, hint: Type | None) -> Literal | None:
+    found = term(context, Scope(), node, hint)
+    if expected is None:
+        found = determined(context, found)
     if expected is not None and not fits(context, found, expected, "a constant here"):
         return None
     if not closed_term(context, found, "a constant value"):
@@ -93,10 +100,10 @@ def constant(context: Context, entry: Entry) -> Constant | None:
     written = constant_value(context, entry.node.value, None)
     if entry.name not in context.overrides or context.names.values.get(entry.name) is not entry:
         return None if written is None else Constant(entry.name, written.value, written.type, span=entry.span)
-    given = _override(context, entry.name, context.overrides[entry.name])
+    given = _override(context, entry.name, BROKEN if written is None else written.type)
     if given is None or written is None:
         return None
-    if given.type.kinds.isdisjoint(written.type.kinds):
+    if not may_be(given.type, written.type):
         message = (
             f"`{entry.name}` is {describe(written.type)} in the file, but {describe(given.type)} on the command line"
         )
@@ -106,14 +113,14 @@ def constant(context: Context, entry: Entry) -> Constant | None:
     return Constant(entry.name, given.value, given.type, span=entry.span)
 
 
-def _override(context: Context, name: str, text: str) -> Literal | None:
+def _override(context: Context, name: str, hint: Type) -> Literal | None:
     from golc.syntax.parse import parse_expression
 
     findings = Findings()
-    node = parse_expression(Source(f"-D {name}", text), findings)
+    node = parse_expression(Source(f"-D {name}", context.overrides[name]), findings)
     for finding in findings.diagnostics:
         context.findings.add(finding)
-    return None if node is None else constant_value(context, node, None)
+    return None if node is None else _value(context, node, None, hint)
 
 
 def static_signature(context: Context, entry: Entry) -> Signature:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, ProgramError, Span, counted
-from golc.theory.fitting import describe
+from golc.theory.fitting import collection, describe
+from golc.theory.order import elements
 from golc.theory.types import Number, Type, Value, show
 
 
@@ -11,14 +12,25 @@ def argument_outside(span: Span, what: str, value: Value, type_: Type) -> Progra
     """An argument is outside its parameter's type; ``what`` names what it is an argument of."""
     if value is None:
         return nothing(span, f"an argument of `{what}`")
-    message = f"argument {show(value)} of `{what}` is outside {describe(type_)}"
+    message = f"argument {show(value)} of `{what}` {_outside(value, type_)}"
     return ProgramError(Diagnostic(Code.ARGUMENT_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
 
 
 def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
     """A fluent or a static function would have a value outside its type."""
-    message = f"`{what}` would be {show(value)}, which is outside {describe(type_)}"
+    message = f"`{what}` would be {show(value)}, which {_outside(value, type_)}"
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
+
+
+def _outside(value: Value, type_: Type) -> str:
+    """Of which type a value is not; of a set or list, which element is wrong."""
+    whole, element = collection(type_), value
+    while whole is not None and isinstance(element, frozenset if whole.kind == "set" else tuple):
+        type_ = whole.element
+        element = next(part for part in elements(element, None) if part not in type_)
+        whole = collection(type_)
+    outside = f"is outside {describe(type_)}"
+    return outside if element is value else f"has the element {show(element)}, which {outside}"
 
 
 def negative_cost(span: Span, call: str, value: Number) -> ProgramError:

@@ -13,7 +13,7 @@ from typing import Generic, TypeAlias, TypeVar, cast
 
 from golc.theory import errors
 from golc.theory.operations import apply, takes_none
-from golc.theory.order import elements
+from golc.theory.order import arranged, elements
 from golc.theory.terms import (
     Before,
     Binder,
@@ -236,7 +236,9 @@ class Evaluator(Generic[S]):
     def _text(self, term: Text, situation: S, env: Env) -> str:
         texts = []
         for part in term.parts:
-            texts.append(part if isinstance(part, str) else show(self.evaluate(part, situation, env)))
+            if not isinstance(part, str):
+                part = show(arranged(self.evaluate(part, situation, env), part.type))
+            texts.append(part)
         return "".join(texts)
 
     def _operation(self, term: Operation, situation: S, env: Env) -> Value:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Span
 from golc.theory.context import Context
-from golc.theory.fitting import BROKEN, describe, overlap, strip_optional
-from golc.theory.terms import Literal, Operation, Operator, Quantified, Term
-from golc.theory.types import BOOL, NONE, Type, show
+from golc.theory.fitting import BROKEN, collection, describe, may_be, overlap, strip_optional
+from golc.theory.terms import Comprehension, Display, Literal, Operation, Operator, Quantified, Term
+from golc.theory.types import BOOL, NONE, REAL, STRING, Type, show
+
+AGGREGATES = ("`sum`", "`min`", "`max`")
 
 
 def broken(span: Span) -> Term:
@@ -16,23 +18,55 @@ def broken(span: Span) -> Term:
 
 def fits(context: Context, found: Term, needed: Type, what: str) -> bool:
     """Whether a term may have a value of a type; otherwise a finding. Constants have to be values of it."""
-    if needed is BROKEN:
-        return True
-    stack, good = [found], True
+    stack, good = [(found, needed, what)], True
     while stack:
-        part = stack.pop()
-        if isinstance(part, Operation) and part.op is Operator.CONDITIONAL:
-            stack.extend((part.args[2], part.args[0]))
-        elif isinstance(part, Literal) and part.type is not BROKEN and overlap(part.type, needed):
-            if part.value not in needed:
-                value = "" if shown(part) == show(part.value) else f" is {show(part.value)}, which"
-                message = f"`{shown(part)}`{value} is outside {describe(needed)}"
-                context.error(Code.OUTSIDE_TYPE, message, part.span, f"{what} needs {describe(needed)}")
-                good = False
-        elif not overlap(part.type, needed):
-            mismatch(context, part, describe(needed), what, _cure(part, needed))
+        part, wanted, place = stack.pop()
+        inside, wanted_inside = _inside(part, wanted)
+        if inside:
+            place = place if wanted_inside == wanted else f"an element of {place}"
+            stack.extend([(each, wanted_inside, place) for each in reversed(inside)])
+        elif not may_be(part.type, wanted):
+            mismatch(context, part, describe(wanted), place, cure(part, wanted))
+            good = False
+        elif isinstance(part, Literal) and part.type is not BROKEN and part.value not in wanted:
+            value = "" if shown(part) == show(part.value) else f" is {show(part.value)}, which"
+            message = f"`{shown(part)}`{value} is outside {describe(wanted)}"
+            context.error(Code.OUTSIDE_TYPE, message, part.span, f"{place} needs {describe(wanted)}")
             good = False
     return good
+
+
+def _inside(found: Term, needed: Type) -> tuple[tuple[Term, ...], Type]:
+    """The parts of a term of which its value is made, and the type that they need."""
+    whole = collection(needed)
+    if isinstance(found, Operation) and found.op is Operator.CONDITIONAL:
+        return (found.args[0], found.args[2]), needed
+    if whole is None or found.type.kinds != whole.kinds:
+        return (), needed
+    match found:
+        case Operation(op=Operator.UNION | Operator.CONCATENATION, args=args):
+            return args, needed
+        case Operation(op=Operator.DIFFERENCE | Operator.REMOVAL, args=(left, _)):
+            return (left,), needed
+        case Display(elements=elements):
+            return elements, whole.element
+        case Comprehension(element=element):
+            return (element,), whole.element
+        case _:
+            return (), needed
+
+
+def as_number(context: Context, found: Term, what: str) -> Term:
+    """A term, if it may be a number; ``what`` says for what one is needed."""
+    if may_be(found.type, REAL):
+        return found
+    help_ = cure(found, REAL)
+    if found.type == STRING and what == "`+`":
+        help_ = '`"{…}{…}"` puts texts together'
+    elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES:
+        help_ = _parentheses(what.strip("`"))
+    mismatch(context, found, "a number", what, help_)
+    return broken(found.span)
 
 
 def mismatch(context: Context, found: Term, needed: str, what: str, help: str | None = None) -> None:
@@ -46,14 +80,32 @@ def mismatch(context: Context, found: Term, needed: str, what: str, help: str | 
         context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {type_}", help)
 
 
-def _cure(found: Term, needed: Type) -> str | None:
+def cure(found: Term, needed: Type) -> str | None:
+    """What helps against a term of the wrong type, if that can be seen."""
+    have, want = collection(found.type), collection(needed)
     if isinstance(found, Literal) and found.value is None:
         return f"the type `{needed}?` has the value `none`, too"
     if needed == BOOL and isinstance(found, Quantified):
-        return f"write `({found.kind} …) = …`: without parentheses `{found.kind}` takes in everything to its right"
+        return _parentheses(found.kind)
     if needed == BOOL:
         return f"compare it: `{shown(found)} = …`"
+    if have and want and have.kind != want.kind and not have.element.kinds:
+        return f"the empty {want.kind} is `{'{}' if want.kind == 'set' else '[]'}`"
+    if have and want and have.kind != want.kind:
+        brackets = "{x for x in …}" if want.kind == "set" else "[x for x in …]"
+        return f"`{brackets}` makes a {want.kind} of a {have.kind}"
+    if want and not have and overlap(found.type, want.element):
+        one = f"{{{shown(found)}}}" if want.kind == "set" else f"[{shown(found)}]"
+        return f"`{one}` is a {want.kind} with one element"
+    if found.type == REAL and "int" in needed.kinds:
+        return f"`{shown(found)} // 1` is the integer below it"
+    if found.type == STRING and not {"string", "int", "real"} & needed.kinds:
+        return "values of an enumeration stand without quotes"
     return None
+
+
+def _parentheses(kind: str) -> str:
+    return f"write `({kind} …) = …`: without parentheses `{kind}` takes in everything to its right"
 
 
 def shown(found: Term) -> str:

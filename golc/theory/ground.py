@@ -4,13 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import cast
 
 from golc.diagnostics import NOWHERE, Code, Diagnostic, Findings, Source, Span, UserError
 from golc.syntax import tree
 from golc.syntax.parse import parse_expression
+from golc.theory.fitting import collection, may_be, size, strip_optional
 from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory, Parameter, Procedure
-from golc.theory.types import Enumeration, Interval, Optional, Type, Value, show_call
+from golc.theory.types import (
+    Collection,
+    Enumeration,
+    Interval,
+    Number,
+    Optional,
+    Primitive,
+    Type,
+    Value,
+    number,
+    show_call,
+)
+
+LONGEST = 100_000
+"""How many values a type may have whose name stands for their list."""
 
 
 @dataclass(frozen=True)
@@ -68,7 +85,7 @@ def read_procedure(theory: BasicActionTheory, text: str) -> Call:
 def read_value(theory: BasicActionTheory, type_: Type, where: Span, findings: Findings) -> tuple[Value] | None:
     """The value of a type that the text at ``where`` names, in a tuple of its own; None if it is wrong."""
     expression = parse_at(where, findings)
-    return None if expression is None else _value(theory, type_, expression, "the value", findings)
+    return None if expression is None else _Reader(theory, where, findings).value(expression, type_, "the value")
 
 
 def example(theory: BasicActionTheory, exogenous: bool) -> str:
@@ -166,9 +183,9 @@ def _call(theory: BasicActionTheory, action: Action | Procedure, target: _Target
         )
         return None
     values: list[Value] = []
+    reader = _Reader(theory, target.where, findings)
     for parameter, arg in zip(action.parameters, target.args, strict=True):
-        moved = replace(arg, span=_shift(arg.span, target.where))
-        value = _value(theory, parameter.type, moved, f"`{parameter.name}` of `{action.name}`", findings)
+        value = reader.value(arg, parameter.type, f"`{parameter.name}` of `{action.name}`")
         if value is None:
             return None
         values.extend(value)
@@ -184,41 +201,94 @@ def _count(parameters: Sequence[Parameter]) -> str:
 
 def _sample(type_: Type) -> Value:
     """Some value of a type, for an example: the last one, which is never ``none``."""
-    return type_.values[-1] if type_.finite else 1
-
-
-def _value(
-    theory: BasicActionTheory, type_: Type, arg: tree.Expr, what: str, findings: Findings
-) -> tuple[Value] | None:
-    """The value that an argument denotes, if the type has it."""
-    match arg:
-        case tree.Number(value=number):
-            value: Value = number
-        case tree.Unary(op="-", operand=tree.Number(value=number)):
-            value = -number
-        case tree.Truth(value=truth):
-            value = truth
-        case tree.Nothing():
-            value = None
-        case tree.Apply(name=tree.Ident(text=name), args=()) if name in theory.symbols:
-            value = name
-        case tree.Apply(name=tree.Ident(text=name), args=()) if name in theory.constants:
-            value = theory.constants[name].value
-        case tree.Apply(name=tree.Ident(text=name), args=()):
-            help_ = did_you_mean(name, _names(type_)) or f"{what} is of type {describe(type_)}"
-            findings.error(Code.EVENT, f"unknown value `{name}`", arg.span, "not a value", help_)
-            return None
+    match strip_optional(type_):
+        case Collection(kind=kind, element=element):
+            return frozenset({_sample(element)}) if kind == "set" else (_sample(element),)
+        case Primitive(name="string"):
+            return "some text"
+        case Primitive(name="real"):
+            return Fraction(1, 2)
         case _:
-            findings.error(
-                Code.EVENT, "a value is needed, not an expression", arg.span, help=f"a value of {describe(type_)}"
-            )
-            return None
-    if value not in type_:
-        message = f"{what} is of type {describe(type_)}, not `{arg.span.text.strip()}`"
-        findings.error(Code.EVENT, message, arg.span)
+            return type_.values[-1] if type_.finite else 1
+
+
+@dataclass(frozen=True)
+class _Reader:
+    """Reads the values that the text at ``where`` names; what is wrong becomes a finding."""
+
+    theory: BasicActionTheory
+    where: Span
+    findings: Findings
+
+    def value(self, node: tree.Expr, type_: Type, what: str) -> tuple[Value] | None:
+        """The value of a type that an expression denotes, in a tuple of its own; ``what`` says what it is for."""
+        match node:
+            case tree.Number() | tree.Real():
+                value: Value = _number(node)
+            case tree.Unary(op="-", operand=tree.Number() | tree.Real() as operand):
+                value = -_number(operand)
+            case tree.Truth(value=truth):
+                value = truth
+            case tree.Nothing():
+                value = None
+            case tree.Message(parts=parts) if all(isinstance(part, str) for part in parts):
+                if "string" not in type_.kinds:
+                    return self._unfit(node, type_, what)
+                value = "".join([part for part in parts if isinstance(part, str)])
+            case tree.SetLiteral() | tree.ListLiteral():
+                return self._collection(node, type_, what)
+            case tree.Apply(name=tree.Ident(text=name), args=()):
+                return self._named(node, name, type_, what)
+            case _:
+                help_ = f"a value of {describe(type_)}"
+                self._error("a value is needed, not an expression", node, help=help_)
+                return None
+        return (value,) if value in type_ else self._unfit(node, type_, what)
+
+    def _named(self, node: tree.Apply, name: str, type_: Type, what: str) -> tuple[Value] | None:
+        """A symbol, a const, or the list of the values of a type."""
+        if name in self.theory.symbols:
+            is_one = any(kind.startswith("symbol:") for kind in type_.kinds) and name in type_
+            return (name,) if is_one else self._unfit(node, type_, what)
+        constant, listed = self.theory.constants.get(name), self.theory.types.get(name)
+        if constant is not None and may_be(constant.type, type_) and constant.value in type_:
+            return (constant.value,)
+        if listed is not None and collection(type_) and listed.finite and size(listed) <= LONGEST:
+            values = tuple(listed.values)
+            return (values,) if values in type_ else self._unfit(node, type_, what)
+        if constant is not None or listed is not None:
+            return self._unfit(node, type_, what)
+        help_ = did_you_mean(name, _names(type_)) or f"{what} is of type {describe(type_)}"
+        self._error(f"unknown value `{name}`", node, "not a value", help_)
         return None
-    return (value,)
+
+    def _collection(self, node: tree.SetLiteral | tree.ListLiteral, type_: Type, what: str) -> tuple[Value] | None:
+        whole = collection(type_)
+        if whole is None or (whole.kind == "set") != isinstance(node, tree.SetLiteral):
+            return self._unfit(node, type_, what)
+        values: list[Value] = []
+        for element in node.elements:
+            value = self.value(element, whole.element, f"an element of {what}")
+            if value is None:
+                return None
+            values.extend(value)
+        return (frozenset(values) if whole.kind == "set" else tuple(values),)
+
+    def _unfit(self, node: tree.Expr, type_: Type, what: str) -> tuple[Value] | None:
+        self._error(f"{what} is of type {describe(type_)}, not `{node.span.text.strip()}`", node)
+        return None
+
+    def _error(self, message: str, node: tree.Expr, marker: str = "", help: str | None = None) -> None:
+        self.findings.error(Code.EVENT, message, _shift(node.span, self.where), marker, help)
+
+
+def _number(node: tree.Number | tree.Real) -> int | Fraction:
+    return node.value if isinstance(node, tree.Number) else cast(Number, number(Fraction(node.value)))
 
 
 def _names(type_: Type) -> list[str]:
+    """The symbols that a value of a type may be, or have as elements."""
+    whole = collection(type_)
+    if whole is not None:
+        return _names(whole.element)
     return [value for value in type_.values if isinstance(value, str)] if type_.finite else []

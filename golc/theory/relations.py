@@ -2,24 +2,33 @@
 
 from __future__ import annotations
 
-import itertools
+from collections.abc import Sequence
 from typing import cast
 
 from golc.diagnostics import Code, Span
 from golc.theory.closed import NoValueError, arithmetic
 from golc.theory.context import Context
 from golc.theory.elaborate_types import home
-from golc.theory.expectations import both, broken, mismatch, shown, typed
-from golc.theory.fitting import BROKEN, describe, includes, join, overlap, size, strip_optional
-from golc.theory.terms import Literal, Membership, Operation, Operator, Term, subterms
-from golc.theory.types import BOOL, INT, Enumeration, Optional, Type, Value
-
-LARGEST = 1000
-"""How large the tests may be that stand for ``x in {a, b}``: each repeats x, so that nested ones would grow like 2ⁿ."""
+from golc.theory.expectations import both, broken, cure, mismatch, shown, typed
+from golc.theory.fitting import (
+    BROKEN,
+    NOTHING,
+    Either,
+    collection,
+    describe,
+    includes,
+    join,
+    may_be,
+    overlap,
+    size,
+    strip_optional,
+)
+from golc.theory.terms import Display, Literal, Membership, Operation, Operator, Term
+from golc.theory.types import BOOL, INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value
 
 
 def numeric(context: Context, op: Operator, args: list[Term], span: Span) -> Term:
-    """An operation on integers; its value if all operands are constants."""
+    """An operation on numbers; its value if all operands are constants."""
     if any(arg.type is BROKEN for arg in args):
         return broken(span)
     last = args[-1]
@@ -28,13 +37,19 @@ def numeric(context: Context, op: Operator, args: list[Term], span: Span) -> Ter
     if division:
         context.error(Code.NO_VALUE, "division by zero", span, "the divisor is 0")
         return broken(span)
+    type_ = INT if op is Operator.DIVIDE else numeric_type(args)
     if len(values) < len(args):
-        return Operation(op, tuple(args), type=INT, span=span)
+        return Operation(op, tuple(args), type=type_, span=span)
     try:
-        return Literal(arithmetic(op, cast(list[int], values), span), type=INT, span=span)
+        return Literal(arithmetic(op, cast(list[int], values), span), type=type_, span=span)
     except NoValueError as error:
         context.error(Code.NO_VALUE, f"`{shown(args[0])} …` has no value: {error.reason}", span)
         return broken(span)
+
+
+def numeric_type(numbers: Sequence[Term]) -> Type:
+    """The type of what is made of some numbers: ``real`` if one of them is."""
+    return REAL if any("real" in number.type.kinds for number in numbers) else INT
 
 
 def _kinds(found: Term) -> frozenset[str]:
@@ -50,26 +65,37 @@ def equality(context: Context, op: Operator, left: Term, right: Term, span: Span
     """``=`` or ``!=`` of terms that have some kind of value in common."""
     if not _comparable(left, right):
         message = f"{both(left, right)} can never be equal"
-        context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common")
+        help_ = _asks_membership(left, right) or cure(right, left.type)
+        context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common", help_)
         return broken(span)
     return Operation(op, (left, right), type=BOOL, span=span)
 
 
+def _asks_membership(left: Term, right: Term) -> str | None:
+    """What helps where a value is compared with a set or list that may have it."""
+    whole = collection(right.type)
+    if whole is None or not overlap(left.type, whole.element):
+        return None
+    return f"`{shown(left)} in {shown(right)}` asks whether it is one of them"
+
+
 def _comparable(left: Term, right: Term) -> bool:
+    if collection(left.type) and collection(right.type):
+        return overlap(left.type, right.type)
     return left.type is BROKEN or right.type is BROKEN or not _kinds(left).isdisjoint(_kinds(right))
 
 
 def ordering(context: Context, op: Operator, left: Term, right: Term, span: Span) -> Term:
-    """A comparison of integers by value or of symbols by their place."""
+    """A comparison of numbers by value or of symbols by their place."""
     if left.type is BROKEN or right.type is BROKEN:
         return broken(span)
     kinds = (left.type.kinds | right.type.kinds) - {"none"}
-    if kinds == INT.kinds:
+    if kinds and kinds <= REAL.kinds:
         return Operation(op, (left, right), type=BOOL, span=span)
     order = _order(context, left, right) if _comparable(left, right) else None
     if order is None:
         message = f"{both(left, right)} have no order"
-        context.error(Code.TYPE_MISMATCH, message, span, "integers, or values of one enumeration, have an order")
+        context.error(Code.TYPE_MISMATCH, message, span, "numbers, or values of one enumeration, have an order")
         return broken(span)
     return Operation(op, (left, right), type=BOOL, span=span, order=order)
 
@@ -97,33 +123,56 @@ def within_type(context: Context, element: Term, within: Type, span: Span) -> Te
         message = f"{typed(element)} can never be in {describe(within)}"
         context.error(Code.TYPE_MISMATCH, message, span, "always false")
         return broken(span)
+    if not may_be(element.type, within):
+        name = shown(element)
+        help_ = f"write `{within.low} <= {name} and {name} <= {within.high}`" if isinstance(within, Interval) else None
+        message = f"`{name}` is of type {describe(element.type)}, and {describe(within)} has only integers"
+        context.error(Code.TYPE_MISMATCH, message, span, "whole or not?", help_)
+        return broken(span)
     return Membership(element, within, type=BOOL, span=span)
 
 
-def one_of(context: Context, element: Term, choices: list[Term], span: Span) -> Term:
-    """``element in {choices}``: a membership if the choices are constants, otherwise a disjunction."""
+def within_collection(context: Context, element: Term, within: Term, span: Span) -> Term:
+    """``element in within`` for a set or a list."""
+    if element.type is BROKEN or within.type is BROKEN:
+        return broken(span)
+    whole = collection(within.type)
+    if whole is None:
+        mismatch(context, within, "a type, a set or a list", "`in`")
+        return broken(span)
+    never = _kinds(element).isdisjoint(whole.element.kinds) or not overlap(element.type, whole.element)
+    if never and whole.element != NOTHING:
+        message = f"{typed(element)} can never be in `{shown(within)}`, which is of type {describe(whole)}"
+        context.error(Code.TYPE_MISMATCH, message, span, "always false", cure(element, whole.element))
+        return broken(span)
+    return Operation(Operator.ELEMENT, (element, within), type=BOOL, span=span)
+
+
+def one_of(context: Context, element: Term, choices: list[Term], span: Span, place: Span) -> Term:
+    """``element in {choices}``, where the choices stand at ``place``: a membership if all of them are constants."""
     if element.type is BROKEN or any(choice.type is BROKEN for choice in choices):
         return broken(span)
     strange = [choice for choice in choices if not _comparable(element, choice)]
     for choice in strange:
-        mismatch(context, choice, describe(element.type), f"a value of `{shown(element)}`")
+        mismatch(context, choice, describe(element.type), f"a value of `{shown(element)}`", cure(choice, element.type))
     if strange:
         return broken(span)
     pairs = [_member(choice) for choice in choices]
     constants = [pair for pair in pairs if pair is not None]
     if len(constants) < len(choices):
-        return _one_of_terms(context, element, choices, span)
+        display = Display(tuple(choices), type=Collection("set", common(choices)), span=place)
+        return Operation(Operator.ELEMENT, (element, display), type=BOOL, span=span)
     values = Enumeration(tuple(dict.fromkeys([pair for pair in constants if pair[0] is not None])))
     within = values if len(values.members) == len({*constants}) else Optional(values)
     return Membership(element, within, type=BOOL, span=span)
 
 
-def _one_of_terms(context: Context, element: Term, choices: list[Term], span: Span) -> Term:
-    if len([*itertools.islice(subterms(element), LARGEST // len(choices) + 1)]) * len(choices) > LARGEST:
-        context.error(Code.UNSUPPORTED, "this term is too large to be compared with several others", element.span)
-        return broken(span)
-    tests = [Operation(Operator.EQUAL, (element, choice), type=BOOL, span=choice.span) for choice in choices]
-    return tests[0] if len(tests) == 1 else Operation(Operator.OR, tuple(tests), type=BOOL, span=span)
+def common(terms: Sequence[Term]) -> Type:
+    """A type that has the values of all terms."""
+    found: Type = NOTHING
+    for each in terms:
+        found = join(found, each.type) or Either(found, each.type)
+    return found
 
 
 def _member(choice: Term) -> tuple[Value, str] | None:
@@ -145,7 +194,7 @@ def conditional(context: Context, then: Term, condition: Term, otherwise: Term, 
     """``then if condition else otherwise``; where a type is needed (``hint``), it is enough that both fit there."""
     type_ = join(then.type, otherwise.type)
     if type_ is None and hint is not None and overlap(then.type, hint) and overlap(otherwise.type, hint):
-        type_ = hint
+        type_ = Either(then.type, otherwise.type)
     if type_ is None:
         message = f"{both(then, otherwise)} cannot be two values of one term"
         context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common")

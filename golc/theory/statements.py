@@ -29,7 +29,7 @@ class Strategy(Enum):
 
 
 Duration: TypeAlias = Term | Fraction
-"""Seconds: an integer term, or a number with decimals."""
+"""Seconds: a term whose values are numbers, or a number that is written with decimals."""
 
 
 @dataclass(frozen=True)

@@ -207,7 +207,7 @@ class Collection(Type):
         return frozenset({self.kind})
 
     def __str__(self) -> str:
-        return f"{self.kind}[{self.element}]"
+        return f"{self.kind}[{self.element}]" if self.element.kinds else f"empty {self.kind}"
 
 
 @dataclass(frozen=True)
@@ -215,6 +215,23 @@ class Unknown:
     """What is shown in place of a value that the agent does not know: the possible ones."""
 
     values: tuple[Value, ...]
+
+
+class InOrder(frozenset[Value]):
+    """A set to be written, with its elements in the order in which they are."""
+
+    order: tuple[Value, ...] = ()
+
+    @classmethod
+    def of(cls, order: Iterable[Value]) -> InOrder:
+        """The set of some elements."""
+        made = cls(order := tuple(order))
+        made.order = order
+        return made
+
+
+class Quoted(str):
+    """A string to be written in quotes."""
 
 
 NONE = Optional(Enumeration(()))
@@ -237,10 +254,13 @@ ESCAPED = str.maketrans({'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "{"
 
 
 def show(value: Value) -> str:
-    """A value as golc writes it: ``true``, ``none``, ``3``, ``0.5``, ``stopped``, ``{1, 2}``; a string as its text."""
+    """A value as golc writes it: ``true``, ``none``, ``3``, ``0.5``, ``stopped``, ``{1, 2}``; a string as its text,
+    unless it is known to be one."""
     match value:
         case None:
             return "none"
+        case Quoted():
+            return '"' + value.translate(ESCAPED) + '"'
         case Unknown(values=values):
             return _alternatives([show(each) for each in values[:MOST_ALTERNATIVES]], len(values))
         case bool():
@@ -252,7 +272,7 @@ def show(value: Value) -> str:
         case Fraction():
             return _decimal(value)
         case frozenset():
-            return "{" + ", ".join(map(_part, sorted(value, key=_rank))) + "}"
+            return "{" + ", ".join(map(_part, _in_order(value))) + "}"
         case tuple():
             return "[" + ", ".join(map(_part, value)) + "]"
         case _:
@@ -283,13 +303,16 @@ def _decimal(value: Fraction) -> str:
 
 def _part(value: Value) -> str:
     """A value beside others: there a string that is no single word stands in quotes."""
-    if isinstance(value, str) and not re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value):
-        return '"' + value.translate(ESCAPED) + '"'
-    return show(value)
+    is_word = not isinstance(value, str) or re.fullmatch("[A-Za-z][A-Za-z0-9_]*", value)
+    return show(value if is_word else Quoted(value))
 
 
-def _rank(value: Value) -> tuple[int, Any]:
-    """What brings the elements of a set into an order where their type is not at hand."""
+def _in_order(value: frozenset[Value]) -> Iterable[Value]:
+    return value.order if isinstance(value, InOrder) else sorted(value, key=rank)
+
+
+def rank(value: Value) -> tuple[int, Any]:
+    """A key for values of any types: what brings the elements of a set into an order where their type says none."""
     match value:
         case None:
             return 0, 0
@@ -298,9 +321,9 @@ def _rank(value: Value) -> tuple[int, Any]:
         case int() | Fraction():
             return 2, value
         case frozenset():
-            return 4, sorted(map(_rank, value))
+            return 4, sorted(map(rank, value))
         case tuple():
-            return 5, tuple(map(_rank, value))
+            return 5, tuple(map(rank, value))
         case _:
             return 3, value
 
@@ -315,9 +338,9 @@ def writable(thing: object) -> object:
         case list() | tuple():
             return [writable(part) for part in thing]
         case frozenset():
-            return [writable(part) for part in sorted(thing, key=_rank)]
+            return [writable(part) for part in _in_order(thing)]
         case Fraction():
-            return _number(show(thing))
+            return _number(show(thing)) if thing.denominator > 1 else writable(thing.numerator)
         case int() if thing.bit_length() > MOST_BITS:
             return show(thing)
         case _:

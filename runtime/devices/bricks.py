@@ -14,6 +14,7 @@ from golc.runtime.devices.rcx.brick import CHECK_HELP, Brick
 from golc.runtime.devices.rcx.errors import InterruptedLinkError, SilentBrickError
 from golc.runtime.devices.rcx.numbers import ClassicParameters
 from golc.runtime.devices.rcx.tower import Tower, open_tower
+from golc.runtime.devices.rcx.transport import Transport
 from golc.theory.types import show_call
 
 POLL_SECONDS = 0.25
@@ -26,10 +27,14 @@ BUSY_SECONDS = 3.0
 
 
 class Link:
-    """A tower and its lock: several bricks share it, and an exchange is never cut in two."""
+    """A tower and its lock: several bricks share it, and an exchange is never cut in two.
 
-    def __init__(self, port: str, speed: float = 1.0) -> None:
+    The tower is at a port, or at the end of a ``transport`` of its own.
+    """
+
+    def __init__(self, port: str, speed: float = 1.0, transport: Transport | None = None) -> None:
         self.port = port
+        self._transport = transport
         self._interrupted = threading.Event()
         self._interruptible: int | None = None
         self._speed = speed
@@ -40,7 +45,7 @@ class Link:
     def tower(self) -> Tower:
         """The tower, opened when it is first asked for; raises ``DeviceError`` if that cannot be done."""
         if self._tower is None:
-            self._tower = open_tower(self.port, self._speed, self._is_interrupted)
+            self._tower = open_tower(self._transport or self.port, self._speed, self._is_interrupted)
         return self._tower
 
     @contextmanager

@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 import importlib.util
+import math
 import sys
 import traceback
 from collections.abc import Callable, Sequence
+from decimal import Decimal
+from fractions import Fraction
 from pathlib import Path
 from types import ModuleType
 
 from golc.diagnostics import DeviceError
 from golc.runtime.devices.base import Args, Bindings, Device, translated
+from golc.theory.fitting import collection
 from golc.theory.ground import describe
 from golc.theory.suggest import did_you_mean
 from golc.theory.theory import BasicActionTheory, Binding, ByCall
-from golc.theory.types import Type, Value
+from golc.theory.types import Type, Value, number
 
 Function = Callable[..., object]
 
@@ -22,8 +26,9 @@ Function = Callable[..., object]
 class Host(Device):
     """Calls a Python function for each action; the function returns what the action senses.
 
-    Arguments are passed as golc's values: integers, truth values, ``None``, symbols as strings. Whatever a function
-    raises is a ``DeviceError``: an exception in a behaviour is an outcome and must not end the run with a robot moving.
+    Arguments are passed as golc's values: integers, truth values, ``None``, symbols and texts as strings, real numbers
+    that are not whole as ``Fraction``, sets as ``frozenset``, lists as ``tuple``. Whatever a function raises is a
+    ``DeviceError``: an exception in a behaviour is an outcome and must not end the run with a robot moving.
     """
 
     def __init__(self, name: str, path: Path, bindings: tuple[Binding, ...], theory: BasicActionTheory) -> None:
@@ -77,11 +82,36 @@ class Host(Device):
         return list(zip(result, types, strict=True))
 
     def _checked(self, value: object, type_: Type, binding: Binding) -> Value:
-        meant = translated(binding, value)
-        if isinstance(meant, (int, str, bool, type(None))) and meant in type_:
+        meant = golc_value(translated(binding, value), type_)
+        if meant in type_:
             return meant
         call = f"`{function_name(binding)}` in {self._path}"
         raise DeviceError(f"{call} returned {value!r}, which is not of type {describe(type_)}")
+
+
+FOREIGN: Value = object()
+"""What stands for a Python value that is none of golc's: it belongs to no type."""
+
+
+def golc_value(value: object, type_: Type) -> Value:
+    """The value that a Python object stands for where a type is needed.
+
+    A real number may be a ``float``, which means the decimals that Python writes; lists and sets may be mutable.
+    """
+    whole = collection(type_)
+    match value:
+        case None | bool() | int() | str():
+            return value
+        case Fraction() if "real" in type_.kinds:
+            return number(value)
+        case float() | Decimal() if "real" in type_.kinds and math.isfinite(value):
+            return number(Fraction(str(value)))
+        case list() | tuple() if whole is not None and whole.kind == "list":
+            return tuple([golc_value(element, whole.element) for element in value])
+        case set() | frozenset() if whole is not None and whole.kind == "set":
+            return frozenset([golc_value(element, whole.element) for element in value])
+        case _:
+            return FOREIGN
 
 
 def function_name(binding: Binding) -> str:

@@ -45,7 +45,6 @@ from golc.runtime.loop.policy import OnSurprise, Policy, surprising
 from golc.runtime.signals import undisturbed
 from golc.situation.dynamics import Surprise
 from golc.situation.worlds import State
-from golc.theory.types import show_call
 
 A_MOMENT = 0.05
 """Real seconds after which a run that would be idle asks again whether a device still has something to report."""
@@ -329,5 +328,5 @@ class Executive(Intake):
             if own > branch.actions:
                 break
             if not isinstance(item, Act):
-                events.append(show_call(item.action, item.args))
+                events.append(self.dynamics.call(item.action, item.args))
         return f"exogenous actions since the plan was made: {', '.join(reversed(events))}" if events else None

@@ -93,7 +93,7 @@ class Intake:
         if self.observers:
             self.tell(TakenIn(self.clock.now(), action, args, report.source, witnessed is None, before, after))
         if self._invariants is not None:
-            self._invariants.check(after, show_call(action, args), self.dynamics.theory.actions[action].span)
+            self._invariants.check(after, self.dynamics.call(action, args), self.dynamics.theory.actions[action].span)
 
     def _misfit(self, report: Report) -> str | None:
         """What keeps a report from being an exogenous action of the domain at all."""
@@ -118,7 +118,7 @@ class Intake:
                 self._drop(report, "it is not possible in this state")
                 return False
             case OnImpossible.STOP:
-                call = show_call(report.action, report.args)
+                call = self.dynamics.call(report.action, report.args)
                 span = self.dynamics.theory.actions[report.action].span
                 message = f"`{call}` has occurred, which is not possible in this state"
                 raise ProgramError(Diagnostic(Code.IMPOSSIBLE_EVENT, message, span, help="see its `poss`"))
@@ -148,7 +148,7 @@ class Intake:
             [f"… {forgotten} before"] if (forgotten := self.actions + self.exogenous - len(self.history)) > 0 else []
         )
         for entry in tuple(self.history):
-            call = show_call(entry.action, entry.args)
+            call = self.dynamics.call(entry.action, entry.args)
             lines.append(call if isinstance(entry, Act) else f"{call} from {entry.source}")
         return lines
 

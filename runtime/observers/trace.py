@@ -126,7 +126,9 @@ class Trace:
                 words = {Remedy.RETRY: "tries again", Remedy.NEXT: "looks for another way"}
                 yield self._row(time, DIM, f"    {words[remedy]}")
             case Dropped(time=time, action=action, args=args, source=source, reason=reason):
-                yield self._row(time, RED, f"{self._in} {show_call(action, args)}", source, f"dropped: {reason}")
+                yield self._row(
+                    time, RED, f"{self._in} {self._dynamics.call(action, args)}", source, f"dropped: {reason}"
+                )
             case Blocked(time=time, reasons=reasons, sources=sources):
                 yield self._row(time, YELLOW, f"  blocked; waits for {' or '.join(sources)}")
                 yield from (f"{MARGIN}    {reason}" for reason in reasons)
@@ -140,7 +142,7 @@ class Trace:
     def _begun(self, begun: Begun) -> str:
         condition = self._reasons.where(begun.span).condition
         why = self._at(begun.span) + (f": {condition}" if condition else "")
-        what = f"{self._sign('→', '->')} {show_call(begun.action, begun.args)}"
+        what = f"{self._sign('→', '->')} {self._dynamics.call(begun.action, begun.args)}"
         return self._row(begun.time, CYAN, what, begun.device, self._style.paint(DIM, why))
 
     def _done(self, done: Done) -> Iterator[str]:
@@ -156,7 +158,7 @@ class Trace:
                 yield self._row(None, YELLOW, "", rest=self._style.paint(YELLOW, text))
 
     def _taken_in(self, event: TakenIn) -> Iterator[str]:
-        call = f"{self._in} {show_call(event.action, event.args)}"
+        call = f"{self._in} {self._dynamics.call(event.action, event.args)}"
         yield self._row(event.time, YELLOW, call, event.source, self._changes(event.before, event.after))
         if event.impossible:
             text = "the theory thinks that impossible here; the world is right"

@@ -18,6 +18,11 @@ class Trace:
     def __init__(self, *readers: Callable[[Record], None]) -> None:
         self._readers = readers
 
+    @property
+    def read(self) -> bool:
+        """Whether anybody reads it."""
+        return bool(self._readers)
+
     def tell(self, now: float, what: str, **details: Any) -> None:
         """Record something that happens at ``now``."""
         if self._readers:

@@ -31,7 +31,7 @@ def expected(text: str) -> list[tuple[int, str]]:
     "path", [path for path in sorted(PROGRAMS.glob("*.gl")) if expected(path.read_text())], ids=lambda path: path.stem
 )
 def test_the_findings_are_those_in_the_comments(path: Path) -> None:
-    _, diagnostics = examine(path)
+    diagnostics = examine(path).findings
     found = [(d.span.line, f"{d.code.code} {d.severity.value} {d.span.column}") for d in diagnostics]
     assert found == sorted(found, key=lambda finding: finding[0]), "findings come in the order of the text"
     assert sorted(found) == sorted(expected(path.read_text()))

@@ -30,7 +30,8 @@ def path() -> Iterator[Path]:
 
 def examined(path: Path, data: bytes) -> None:
     path.write_bytes(data)
-    theory, diagnostics = examine(path)
+    examined = examine(path)
+    theory, diagnostics = examined.theory, examined.findings
     assert (theory is None) == any(diagnostic.severity.value == "error" for diagnostic in diagnostics)
     for diagnostic in diagnostics:
         assert diagnostic.message in render(diagnostic) or not diagnostic.message.isprintable()

@@ -25,7 +25,7 @@ def found(tmp_path: Path, text: str) -> list[tuple[str, str, str]]:
     path.write_text(LIFT + text)
     return [
         (finding.code.code, finding.message, finding.span.text)
-        for finding in examine(path)[1]
+        for finding in examine(path).findings
         if finding.code is not Code.UNUSED
     ]
 

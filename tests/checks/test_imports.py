@@ -34,7 +34,7 @@ def write(folder: Path, **files: str) -> None:
 
 def found(folder: Path, name: str = "main.gl") -> list[str]:
     """``FILE:LINE:COLUMN CODE MESSAGE`` of each finding in a file, with paths from the folder."""
-    _, findings = examine(folder / name)
+    findings = examine(folder / name).findings
     return [f"{f.span} {f.code.code} {f.message}".replace(f"{folder}/", "") for f in findings]
 
 
@@ -116,14 +116,14 @@ def test_what_is_wrong_is_said_in_its_place(tmp_path: Path, files: dict[str, str
 
 def test_the_first_of_two_declarations_is_shown_in_its_file(tmp_path: Path) -> None:
     write(tmp_path, main=MAIN + "const spare = 4\n", parts_rooms=ROOMS)
-    (finding,) = [finding for finding in examine(tmp_path / "main.gl")[1] if finding.code.code == "GL011"]
+    (finding,) = [finding for finding in examine(tmp_path / "main.gl").findings if finding.code.code == "GL011"]
     assert str(finding.labels[0].span).endswith("parts/rooms.gl:3:7")
 
 
 def test_bytes_that_are_no_text_are_shown_where_they_are(tmp_path: Path) -> None:
     write(tmp_path, main=MAIN)
     (tmp_path / "parts" / "rooms.gl").write_bytes(b"domain rooms\n# \xff\n")
-    (finding,) = examine(tmp_path / "main.gl")[1]
+    (finding,) = examine(tmp_path / "main.gl").findings
     assert (finding.span.line, finding.span.column) == (2, 3)
     assert [label.span.text for label in finding.labels] == ['import "parts/rooms.gl"']
 

@@ -13,7 +13,7 @@ def found(tmp_path: Path, text: str) -> list[tuple[str, str]]:
     """Message and marked text of what is found in fluents that are all used."""
     path = tmp_path / "trial.gl"
     path.write_text(f"domain trial\ntype digit = 0..9\n{text}action use(d: digit):\n    poss x(d) = x(0)\n")
-    return [(finding.message, finding.span.text) for finding in examine(path)[1]]
+    return [(finding.message, finding.span.text) for finding in examine(path).findings]
 
 
 @pytest.mark.parametrize("text", ["fluent x(n: digit): digit = 9 - n\n", "fluent x(n: digit) = n * n in {4, 9}\n"])
@@ -44,6 +44,16 @@ def test_values_inside_the_type_are_fine(tmp_path: Path, text: str) -> None:
             "fluent x(n: digit): digit = min m: digit where m > n. m\n",
             "the initial value of `x(9)` cannot be computed: `min` over nothing has no value",
             "min m: digit where m > n. m",
+        ),
+        (
+            "fluent x(n: digit): digit = one of {n, n + 1}\n",
+            "the initial value 10 of `x(9)` is outside `digit` (0..9)",
+            "one of {n, n + 1}",
+        ),
+        (
+            "fluent x(n: digit): digit = one of [m for m: digit where m > n]\n",
+            "fluent `x(9)` is one of no values at first",
+            "one of [m for m: digit where m > n]",
         ),
     ],
 )

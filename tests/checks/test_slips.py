@@ -12,12 +12,12 @@ from golc.loading import examine
 DELIVERY = (Path(__file__).parents[2] / "examples/delivery/delivery.gl").read_text()
 
 
-def seeded(tmp_path: Path, old: str, new: str) -> list[Diagnostic]:
+def seeded(tmp_path: Path, old: str, new: str) -> tuple[Diagnostic, ...]:
     """What is found in the delivery domain with one slip: the first of ``old`` replaced by ``new``."""
     assert old in DELIVERY
     path = tmp_path / "delivery.gl"
     path.write_text(DELIVERY.replace(old, new, 1))
-    return examine(path)[1]
+    return examine(path).findings
 
 
 def place(diagnostic: Diagnostic) -> str:
@@ -31,9 +31,10 @@ def place(diagnostic: Diagnostic) -> str:
 def test_the_delivery_domain_has_no_findings(tmp_path: Path) -> None:
     path = tmp_path / "delivery.gl"
     path.write_text(DELIVERY)
-    theory, diagnostics = examine(path)
+    examined = examine(path)
+    theory, diagnostics = examined.theory, examined.findings
     assert theory is not None
-    assert diagnostics == []
+    assert diagnostics == ()
 
 
 @pytest.mark.parametrize(
@@ -154,11 +155,11 @@ def test_an_interrupt_below_a_more_general_one_is_found(tmp_path: Path) -> None:
 
 def test_a_general_interrupt_that_may_not_begin_is_no_finding(tmp_path: Path) -> None:
     general = "        on location > 1:\n            turnaround\n        on location > 1 and direction = 1:\n"
-    assert seeded(tmp_path, "        on location > 1:\n", general) == []
+    assert seeded(tmp_path, "        on location > 1:\n", general) == ()
 
 
 def test_several_slips_are_all_found(tmp_path: Path) -> None:
     path = tmp_path / "delivery.gl"
     path.write_text(DELIVERY.replace("motion = stopped", "motoin = stoped").replace("location", "locaton", 1))
-    codes = [finding.code.code for finding in examine(path)[1]]
+    codes = [finding.code.code for finding in examine(path).findings]
     assert codes.count("GL012") == len(codes) > 10

@@ -29,7 +29,7 @@ def found(tmp_path: Path, text: str) -> list[tuple[str, str, str]]:
     path.write_text(HEAD + text)
     return [
         (finding.code.code, finding.message, finding.span.text)
-        for finding in examine(path)[1]
+        for finding in examine(path).findings
         if finding.code.code not in ("GL027", "GL028")
     ]
 
@@ -84,7 +84,7 @@ def test_an_invariant_holds_in_every_initial_world(tmp_path: Path) -> None:
 def test_an_invariant_that_fails_shows_a_world(tmp_path: Path) -> None:
     path = tmp_path / "gates.gl"
     path.write_text(HEAD + "invariant safe: gate = open implies load = 1\n")
-    (finding,) = [finding for finding in examine(path)[1] if finding.code.code == "GL052"]
+    (finding,) = [finding for finding in examine(path).findings if finding.code.code == "GL052"]
     assert finding.notes == ("for example where gate = open, load = 2",)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import sys
 from pathlib import Path
 
@@ -14,7 +15,14 @@ UGLY = "domain d   # a domain\nproc p :\n  a\n"
 CANONICAL = "domain d  # a domain\nproc p:\n    a\n"
 BROKEN = "domain d\nproc p:\n    if a\n        b\n"
 
+ROOT = Path(__file__).parents[2]
+WRITTEN = [*(ROOT / "examples").glob("*/*.gl"), *(ROOT / "tests" / "programs").glob("*.gl")]
+
 Captured = pytest.CaptureFixture[str]
+
+
+def test_the_files_of_the_project_are_in_canonical_layout(capsys: Captured) -> None:
+    assert (invoke(["fmt", "--check", *map(str, WRITTEN)]), capsys.readouterr().out) == (0, "")
 
 
 @pytest.fixture
@@ -78,6 +86,15 @@ def test_a_file_that_does_not_parse_is_left_as_it_is(folder: Path, capsys: Captu
         "error[GL001]: cannot read `missing.gl`: there is no such file",
     ]
     assert err.endswith("1 file: 1 changed, 2 left as they are\n")
+
+
+def test_a_pipe_is_left_alone(folder: Path, capsys: Captured) -> None:
+    os.mkfifo(folder / "pipe.gl")
+    assert invoke(["fmt", "pipe.gl"]) == 1
+    assert capsys.readouterr().err.splitlines() == [
+        "error: `pipe.gl` is no file that could be written anew; `-` stands for standard input",
+        "0 files: none changed, 1 left as it is",
+    ]
 
 
 def test_check_lists_what_would_change(folder: Path, capsys: Captured) -> None:

@@ -48,9 +48,10 @@ class Terminal:
         self._code = 0
         shutil.copytree(ROOT / "examples", folder / "examples", ignore=shutil.ignore_patterns("build"))
         (folder / "bin").mkdir()
-        command = folder / "bin" / "golc"
-        command.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} -m golc "$@"\n')
-        command.chmod(0o755)
+        for name, arguments in (("golc", "-m golc"), ("python", "")):
+            command = folder / "bin" / name
+            command.write_text(f'#!/bin/sh\nexec {shlex.quote(sys.executable)} {arguments} "$@"\n')
+            command.chmod(0o755)
         chdir(folder)
 
     def perform(self, command: str, expected: list[str]) -> None:

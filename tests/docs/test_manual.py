@@ -4,12 +4,11 @@ How a page is read:
 
 - A ``golc`` block that begins with ``domain`` is a file without findings, laid out as ``golc fmt`` does it.
 - If a ``text`` block that begins with a finding follows at once, the file has exactly these findings.
-- A line that ends in ``# planned`` is answered with "not supported yet"; a file that has one has no other findings.
 - Any other ``golc`` block is a part of a file, a part of a program, or expressions, and has to parse.
 - A block with a name behind its language (``golc garden.gl``) is saved under that name for what stands below it, or
   appended to the file (``golc + garden.gl``), which then as a whole is a file without findings.
-- A ``console`` block with a ``$ golc`` line is a session: its commands are run, and their output is compared (see
-  ``Terminal``). What should not be run stands in a block of another language.
+- A ``console`` block with a ``$ golc`` or ``$ python`` line is a session: its commands are run, and their output is
+  compared (see ``Terminal``). What should not be run stands in a block of another language.
 """
 
 from __future__ import annotations
@@ -29,6 +28,8 @@ from golc.loading import examine
 from golc.rendering import render
 from golc.syntax.format import formatted
 from golc.syntax.parse import parse_expression, parse_file
+from golc.theory.declare import BUILTIN_TYPES, FUNCTIONS
+from golc.theory.elaborate_actions import SOURCES
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -63,7 +64,7 @@ class Block:
 
     @property
     def is_session(self) -> bool:
-        return self.language == "console" and re.search(r"^\$ golc\b", self.text, re.MULTILINE) is not None
+        return self.language == "console" and re.search(r"^\$ (golc|python)\b", self.text, re.MULTILINE) is not None
 
     @property
     def file(self) -> str:
@@ -117,13 +118,8 @@ def test_domain_has_the_findings_that_the_page_shows(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     save_page(block, tmp_path)
-    _, found = examine(block.file)
-    planned = [number for number, line in enumerate(block.text.splitlines(), 1) if line.endswith("# planned")]
-    if planned:
-        assert sorted({finding.span.line for finding in found}) == planned
-        assert {finding.code for finding in found} == {Code.UNSUPPORTED}
-    else:
-        assert "\n\n".join(map(render, found)) == block.findings.rstrip()
+    found = examine(block.file).findings
+    assert "\n\n".join(map(render, found)) == block.findings.rstrip()
 
 
 def save_page(block: Block, folder: Path) -> None:
@@ -138,7 +134,7 @@ def save_page(block: Block, folder: Path) -> None:
 def test_file_in_several_blocks_has_no_findings(block: Block, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     save_page(block, tmp_path)
-    assert "\n\n".join(map(render, examine(block.file)[1])) == ""
+    assert "\n\n".join(map(render, examine(block.file).findings)) == ""
 
 
 WHOLE = [*(block for block in DOMAINS if not block.findings), *LONGEST]
@@ -239,3 +235,12 @@ def test_every_code_is_listed() -> None:
     page = (ROOT / "docs" / "command-line.md").read_text(encoding="utf-8")
     listed = re.findall(r"^\| (GL\d+) \| (.*) \|$", page, re.MULTILINE)
     assert listed == sorted((code.code, code.title) for code in Code)
+
+
+def test_every_word_of_the_language_is_in_the_index() -> None:
+    page = (ROOT / "docs" / "words.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^\| `([a-z]+)` \|", page, re.MULTILINE)
+    grammar = (ROOT / "grammar" / "golc.lark").read_text(encoding="utf-8")
+    words = {*re.findall(r'"([a-z]+)"', grammar), *re.findall(r"^_[A-Z.1]+: /([a-z]+)", grammar, re.MULTILINE)}
+    assert listed == sorted(listed)
+    assert set(listed) == words | {*BUILTIN_TYPES, *FUNCTIONS, *SOURCES}

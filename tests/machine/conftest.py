@@ -6,11 +6,18 @@ import random
 import struct
 import subprocess
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from golc.bytecode.image import Image, read_image
 from golc.nqc.toolchain import Target
+from golc.runtime.rcxsim.machine.machine import Machine
+from golc.runtime.rcxsim.machine.options import FIRMWARES, Options
+from golc.runtime.rcxsim.surroundings import Bench
+from golc.runtime.rcxsim.trace import Trace
 
 Compile = Callable[[str, Target], bytes]
 """Compiles the text of a program to the bytes of its image."""
@@ -58,6 +65,73 @@ def image_of(chunks: Chunks, target: int = 3, symbols: Sequence[tuple[int, int, 
 def image_of_fixture() -> Callable[..., bytes]:
     """Images made by hand."""
     return image_of
+
+
+@dataclass
+class Ears:
+    """Hears what the brick sends: each packet with its time in seconds, and how long it is in the air."""
+
+    packets: list[tuple[float, bytes]] = field(default_factory=list)
+
+    def send(self, payload: bytes, now: int) -> int:
+        self.packets.append((now / 1e6, payload))
+        return now + 41_250
+
+    @property
+    def messages(self) -> list[int]:
+        return [payload[1] for _, payload in self.packets if payload[0] == 0xF7]
+
+
+@dataclass
+class Robot:
+    """A machine with a program on a table, and everything that it does."""
+
+    machine: Machine
+    bench: Bench
+    ears: Ears
+    records: list[dict[str, Any]]
+    image: Image
+
+    def run(self, seconds: float) -> Robot:
+        """Let time pass."""
+        self.machine.run(self.machine.now + round(seconds * 1e6))
+        return self
+
+    def finish(self, within: float = 60.0) -> Robot:
+        """Let time pass until no task is running any more."""
+        end = self.machine.now + within * 1e6
+        while self.machine.processor.running:
+            assert self.machine.now < end, "the program does not end"
+            self.run(0.1)
+        return self
+
+    def variable(self, name: str) -> int:
+        """The value of a variable of the program."""
+        [number] = {symbol.number for symbol in self.image.symbols if (symbol.type, symbol.name) == (2, name)}
+        return self.machine.variables[number]
+
+    def told(self, what: str) -> list[dict[str, Any]]:
+        """The records of one kind in the trace."""
+        return [record for record in self.records if record["what"] == what]
+
+
+@pytest.fixture
+def robot(nqc: Compile) -> Callable[..., Robot]:
+    """Compiles a program, or takes an image, and starts it on a machine with some options; no time has passed."""
+
+    def make(program: str | bytes, target: Target = Target.RCX, start: bool = True, **options: Any) -> Robot:
+        data = nqc(program, target) if isinstance(program, str) else program
+        image = read_image(data)
+        records: list[dict[str, Any]] = []
+        bench, ears = Bench(), Ears()
+        trace = Trace(lambda record: records.append(dict(record)))
+        machine = Machine(FIRMWARES[image.target], bench, ears, trace, Options(**options))
+        machine.load(image)
+        if start:
+            machine.start(0)
+        return Robot(machine, bench, ears, records, image)
+
+    return make
 
 
 class Writer:
@@ -160,7 +234,7 @@ class Writer:
             f"SendMessage({self.pick(variable, '17', '255')});",
             f"put({variable}, {self.variable()});",
             f"{variable}++;",
-            f"Wait({self.pick('1', '10', '50')});",
+            f"Wait({self.pick('1', '10', '50') if self.tasks else '2'});",
         ]
         if self.tasks:
             commands += [

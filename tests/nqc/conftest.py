@@ -30,13 +30,14 @@ class Workshop:
 
     def theory(self, text: str) -> BasicActionTheory:
         """A domain without errors."""
-        theory, found = examine(self.write("robot.gl", text))
+        examined = examine(self.write("robot.gl", text))
+        theory, found = examined.theory, examined.findings
         assert theory is not None, [str(diagnostic) for diagnostic in found]
         return theory
 
     def found(self, text: str) -> list[Diagnostic]:
         """What ``golc check`` finds about devices."""
-        _, found = examine(self.write("robot.gl", text))
+        found = examine(self.write("robot.gl", text)).findings
         return [diagnostic for diagnostic in found if "GL080" <= diagnostic.code.code <= "GL099"]
 
     def numbers(self, text: str) -> ActionMap:

@@ -69,7 +69,7 @@ def test_bookkeeping_senses_nothing(workshop: Workshop, bindings: str) -> None:
 
 def test_a_brick_reports_only_what_may_come_from_it(workshop: Workshop) -> None:
     text = "domain d\naction a\nexog e from operator\ndevice rcx:\n    0 a\n    1 e\n"
-    _, found = examine(workshop.write("robot.gl", text))
+    found = examine(workshop.write("robot.gl", text)).findings
     assert [(diagnostic.message, diagnostic.span.line) for diagnostic in found] == [
         ("`e` may come only from operator, not from `rcx`", 6)
     ]
@@ -188,5 +188,5 @@ def test_functions_take_one_argument_for_each_of_the_action(workshop: Workshop, 
 def test_an_nqc_file_that_cannot_be_read_is_one_finding(workshop: Workshop) -> None:
     (workshop.folder / "robot.nqc").mkdir()
     path = workshop.write("robot.gl", 'domain d\naction a\nproc control:\n    a\ndevice rcx "robot.nqc":\n    0 a\n')
-    _, found = examine(path)
+    found = examine(path).findings
     assert [(diagnostic.code.code, diagnostic.span.line) for diagnostic in found] == [("GL001", 5)]

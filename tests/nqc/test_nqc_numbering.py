@@ -10,7 +10,7 @@ from golc.diagnostics import Code, DeviceError, Findings, Source
 from golc.nqc.numbering import number_device
 from golc.theory.terms import Literal
 from golc.theory.theory import Action, BasicActionTheory, Binding, Device, Fixed, Parameter
-from golc.theory.types import BOOL, INT, Enumeration, Interval, Type, Value
+from golc.theory.types import BOOL, INT, REAL, STRING, Collection, Enumeration, Interval, Type, Value
 
 if TYPE_CHECKING:
     from tests.nqc.conftest import Workshop
@@ -250,6 +250,9 @@ def test_arguments_that_do_not_fit_sixteen_bits_are_found() -> None:
         (Enumeration((("x", "e"), (0, ""))), [Code.SENSING_NUMBER]),
         (Enumeration((("x", "e"), (1, ""))), []),
         (INT, []),
+        (REAL, []),
+        (STRING, [Code.SENSING_NUMBER]),
+        (Collection("list", INT), [Code.SENSING_NUMBER]),
         (BOOL, []),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from itertools import pairwise, permutations
 from pathlib import Path
 
@@ -17,6 +18,7 @@ from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
+from golc.theory.types import Number
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -27,7 +29,7 @@ action free:
     cost 0
 action a
 action toll:
-    cost x % 3 + 1
+    cost x % 3 + 0.5
 action inc:
     causes x := x + 1
     cost 2
@@ -59,13 +61,14 @@ def one(program: Executable, strategy: Strategy, limits: Limits) -> Plan | None:
     return next(iter(Planning(program, limits, strategy=strategy)), None)
 
 
-def cost(program: Executable, plan: tuple[Act, ...]) -> int:
+def cost(program: Executable, plan: tuple[Act, ...]) -> Number:
     """The sum of the costs, by the interpreter of terms instead of the compiled functions."""
-    dynamics, state, total = program.dynamics, program.dynamics.initial(), 0
+    dynamics, state = program.dynamics, program.dynamics.initial()
+    total: Number = 0
     for act in plan:
         term = dynamics.theory.actions[act.action].cost
         value = 1 if term is None else dynamics.knowing.evaluate(term, state, act.args)
-        assert isinstance(value, int)
+        assert isinstance(value, int | Fraction)
         total += value
         state = dynamics.progress(state, act.action, act.args)
     return total

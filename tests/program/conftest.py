@@ -21,6 +21,8 @@ type digit = 0..3
 fluent x: int = 0
 fluent p: bool = false
 fluent on(n: digit) = n in {1, 2}
+fluent todo: list[digit] = [2, 0, 2]
+fluent seen: set[digit] = {3, 1}
 action a
 action b
 action c
@@ -30,10 +32,15 @@ action inc:
 action off(n: digit):
     poss on(n)
     causes on(n) := false
+action push(n: digit):
+    causes todo := todo + [n]
+    causes seen := seen - {n}
 action never:
     poss false
 exog set_x(n: int):
     causes x := n
+exog set_todo(l: list[digit]):
+    causes todo := l
 exog set_p:
     causes p := true
 exog clear_p:

@@ -14,8 +14,9 @@ from hypothesis import strategies as st
 from golc.situation.worlds import Worlds
 from golc.theory.types import show_call
 
-CONDITIONS = ["x = 0", "x < 2", "not p", "on(1)", "exists n: digit. on(n)", "x % 2 = 1", "true", "false"]
-LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "never", "skip", "wait", "wait 5 s", "q(1)", "q(x)"]
+CONDITIONS = ["x = 0", "x < 2", "not p", "on(1)", "exists n: digit. on(n)", "x % 2 = 1", "x in todo", "true", "false"]
+LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "push(x % 4)", "never", "skip", "wait", "wait 5 s", "q(1)"]
+LEAVES += ["q(x)", "push(len(seen))"]
 PROCEDURES = """
 proc q(n: int):
     choose:
@@ -60,7 +61,11 @@ def lines(depth: int, conditions: list[str] = CONDITIONS) -> st.SearchStrategy[l
             inner.map(lambda block: ["within x + 1 s:", *block, "else:", "    a"]),
             inner.map(lambda block: ["for n: digit where on(n):", *block]),
             inner.map(lambda block: ["for k in 1..2, p2: bool:", "    if p2 = p:", "        act(k)", *block]),
+            inner.map(lambda block: ["for n in todo where n in seen or on(n):", *block]),
+            inner.map(lambda block: ["for n in seen, m in [n, x], b: bool:", "    if b:", "        act(m)", *block]),
             inner.map(lambda block: ["pick n: digit where on(n):", *block]),
+            inner.map(lambda block: ["pick n in todo where on(n):", *block]),
+            inner.map(lambda block: ["pick p2: bool, s in {todo, [x]}, n in s:", "    act(n)", *block]),
             inner.map(lambda block: ["pick m: digit:", "    off(m)", *block]),
             inner.map(lambda block: ["let y = x + 1:", "    act(y)", *block]),
             two.map(joined("choose", "or")),
@@ -72,6 +77,8 @@ def lines(depth: int, conditions: list[str] = CONDITIONS) -> st.SearchStrategy[l
                     *(f"    {line}" for c, block in hs for line in [f"on {c}:", *block]),
                     "    on some n: digit where on(n) and n > x:",
                     "        off(n)",
+                    "    on some n in seen, m in todo where n = m:",
+                    "        push(n)",
                 ]
             ),
         )

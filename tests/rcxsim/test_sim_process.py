@@ -205,7 +205,6 @@ def test_speed_shortens_everything(sim: Sim, lift_file: Path, tmp_path: Path) ->
         (["{lift}", "--events", "/no/such/script"], 1, "/no/such/script"),
         (["{lift}", "--trace", "/no/such/trace"], 1, "/no/such/trace"),
         (["{lift}", "--what"], 2, "--what"),
-        ([], 2, "FILE"),
     ],
 )
 def test_bad_input(sim: Sim, lift_file: Path, arguments: list[str], code: int, complaint: str) -> None:

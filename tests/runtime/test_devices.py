@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import threading
 from collections.abc import Callable
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +16,7 @@ from golc.runtime.devices.base import Device, Router
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, build_devices
 from golc.runtime.devices.desk import Desk
-from golc.runtime.devices.host import load_module
+from golc.runtime.devices.host import Host, load_module
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
@@ -222,6 +223,54 @@ def test_truth_values_and_integers_are_told_apart(devices: Devices) -> None:
 
     with pytest.raises(DeviceError, match="returned True, which is not of type int"):
         host.perform("measure", ())
+
+
+@pytest.mark.parametrize(
+    ("type_", "returned", "sensed"),
+    [
+        ("real", "0.1", Fraction(1, 10)),
+        ("real", "2.0", 2),
+        ("list[real]", "[1, 0.5]", (1, Fraction(1, 2))),
+        ("set[colour]", "{'red'}", frozenset({"red"})),
+        ("list[set[int]]", "None", None),
+        ("string", "'two words'", "two words"),
+    ],
+)
+def test_a_function_returns_real_numbers_lists_and_sets(
+    tmp_path: Path, type_: str, returned: str, sensed: object
+) -> None:
+    assert sensing(tmp_path, type_, returned).perform("look", ()) == (sensed,)
+
+
+@pytest.mark.parametrize(
+    ("type_", "returned"),
+    [
+        ("int", "2.0"),
+        ("real", "float('nan')"),
+        ("list[colour]", "{'red'}"),
+        ("list[colour]", "[['red']]"),
+        ("set[colour]", "['red']"),
+        ("list[int]", "[0.5]"),
+        ("string", "3"),
+    ],
+)
+def test_what_is_no_such_value_is_a_device_failure(tmp_path: Path, type_: str, returned: str) -> None:
+    with pytest.raises(DeviceError, match="which is not of type"):
+        sensing(tmp_path, type_, returned).perform("look", ())
+
+
+def sensing(folder: Path, type_: str, returned: str) -> Device:
+    """A host whose only action senses a value of a type or none; its function returns this expression."""
+    path, helpers = folder / "trial.gl", folder / "helpers.py"
+    path.write_text(
+        f"domain trial\ntype colour = {{red, green}}\nfluent seen: {type_}? = none\naction look:\n    senses seen\n"
+        'device host "helpers.py":\n    look\n'
+    )
+    helpers.write_text(f"def look():\n    return {returned}\n")
+    theory = load(path)
+    host = Host("host", helpers, theory.devices[0].bindings, theory)
+    host.open()
+    return host
 
 
 def test_too_few_results_are_a_device_failure(devices: Devices) -> None:

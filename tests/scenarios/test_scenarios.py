@@ -166,7 +166,8 @@ def test_what_else_goes_wrong(tmp_path: Path, lines: str, message: str) -> None:
 def test_what_makes_no_scenario(tmp_path: Path, lines: str, code: str, marked: str) -> None:
     path = tmp_path / "door.gl"
     path.write_text(DOOR + "".join(f"    {line}\n" for line in lines.splitlines()))
-    theory, found = examine(path)
+    examined = examine(path)
+    theory, found = examined.theory, examined.findings
     assert theory is None
     assert (code, marked) in [(finding.code.code, finding.span.text.strip()) for finding in found]
 
@@ -174,7 +175,7 @@ def test_what_makes_no_scenario(tmp_path: Path, lines: str, code: str, marked: s
 def test_two_scenarios_of_a_name_and_one_without_a_program(tmp_path: Path) -> None:
     path = tmp_path / "d.gl"
     path.write_text("domain d\nfluent x: int = 0\nscenario a:\n    expect x = 0\nscenario a:\n    expect x = 0\n")
-    found = [finding.message for finding in examine(path)[1]]
+    found = [finding.message for finding in examine(path).findings]
     assert "scenario `a` is declared twice" in found
     assert "scenario `a` does not say what it runs, and there is no procedure `control`" in found
 

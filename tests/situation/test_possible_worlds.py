@@ -288,6 +288,31 @@ action a:
     ]
 
 
+def test_a_constraint_for_many_is_asked_one_by_one() -> None:
+    text = """\
+domain d
+type n = 1..40
+fluent lit(x: n) = unknown
+initially forall x: n, y: n where y = x + 20. lit(x) iff lit(y)
+"""
+    state = Dynamics(theory_of(text)).initial()
+    assert isinstance(state, Worlds)
+    assert len(state) == 2**20
+    assert {len(factor.rows) for factor in state.factors} == {2}
+
+
+def test_values_that_are_all_different_are_the_permutations() -> None:
+    text = """\
+domain d
+type n = 1..3
+fluent f(x: n): n = unknown
+initially forall x: n, y: n where x != y. f(x) != f(y)
+"""
+    state = Dynamics(theory_of(text)).initial()
+    assert isinstance(state, Worlds)
+    assert set(state) == set(itertools.permutations((1, 2, 3)))
+
+
 def test_possible_values_are_shown_in_the_order_of_their_type() -> None:
     text = "domain d\ntype side = {left, right, top}\nfluent f: side = one of [top, left]\nfluent g: side? = unknown\n"
     dynamics = Dynamics(theory_of(text))

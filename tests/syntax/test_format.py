@@ -166,14 +166,6 @@ def test_a_text_that_does_not_parse_has_no_layout() -> None:
     assert [finding.code.code for finding in findings.diagnostics] == ["GL004"]
 
 
-@pytest.mark.parametrize("path", WRITTEN, ids=lambda path: path.stem)
-def test_the_files_of_the_project_are_in_canonical_layout(path: Path) -> None:
-    text = read_source(path).text
-    findings = Findings()
-
-    assert formatted(Source(path.name, text), findings) in (text, None)
-
-
 @given(st.data())
 def test_what_the_printer_of_trees_writes_is_canonical(trees: Any, data: st.DataObject) -> None:
     text = unparse(data.draw(trees.files))

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from golc.theory.closed import Closed, NoValueError
-from golc.theory.order import elements
+from golc.theory.order import arranged, elements
 from golc.theory.terms import (
     Binder,
     Comprehension,
@@ -20,7 +20,21 @@ from golc.theory.terms import (
     Text,
     Variable,
 )
-from golc.theory.types import BOOL, INT, REAL, STRING, Collection, Enumeration, Interval, Optional, Type, Value
+from golc.theory.types import (
+    BOOL,
+    INT,
+    REAL,
+    STRING,
+    Collection,
+    Enumeration,
+    Interval,
+    Optional,
+    Type,
+    Unknown,
+    Value,
+    show,
+    writable,
+)
 
 COLOUR = Enumeration((("red", "colour"), ("green", "colour"), ("blue", "colour")), "colour")
 DIGITS = Collection("set", Interval(0, 9))
@@ -148,3 +162,26 @@ def test_a_quantifier_stops_at_what_decides() -> None:
     assert value(found) is True
     with pytest.raises(NoValueError, match="division by zero"):
         value(Quantified("exists", (Binder(x, integers(3, 0)),), None, found.body, type=BOOL))
+
+
+@pytest.mark.parametrize(
+    ("written", "type_", "text", "json"),
+    [
+        (frozenset({"blue", "red"}), Collection("set", COLOUR), "{red, blue}", ["red", "blue"]),
+        (("b", "a b"), Optional(Collection("list", STRING)), '["b", "a b"]', ["b", "a b"]),
+        (
+            (frozenset({"green", "red"}), None),
+            Collection("list", Optional(Collection("set", COLOUR))),
+            "[{red, green}, none]",
+            [["red", "green"], None],
+        ),
+        (None, Optional(Collection("list", STRING)), "none", None),
+        ("a b", STRING, "a b", "a b"),
+        (frozenset({1, "outside"}), Collection("set", COLOUR), "{1, outside}", [1, "outside"]),
+        (Unknown((frozenset({"green", "red"}), frozenset())), Collection("set", COLOUR), "{} or {red, green}", None),
+    ],
+)
+def test_what_is_written_knows_its_order_and_its_strings(written: Value, type_: Type, text: str, json: object) -> None:
+    found = arranged(written, type_)
+    assert show(found) == text
+    assert isinstance(written, Unknown) or (found == written and writable(found) == json)

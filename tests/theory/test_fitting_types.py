@@ -2,12 +2,26 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from golc.theory.fitting import BROKEN, includes, join, meet, size
-from golc.theory.types import BOOL, INT, NONE, Enumeration, Interval, Optional, Type
+from golc.theory.fitting import BROKEN, NOTHING, includes, is_undetermined, join, may_be, meet, overlap, size
+from golc.theory.types import (
+    BOOL,
+    INT,
+    NONE,
+    REAL,
+    STRING,
+    Collection,
+    Enumeration,
+    Interval,
+    Optional,
+    Type,
+    Value,
+)
 
 COLOUR = Enumeration((("red", "colour"), ("green", "colour"), ("blue", "colour")), "colour")
 WARM = Enumeration((("red", "colour"),))
@@ -49,6 +63,71 @@ def test_a_join_has_the_values_of_both(one: Type, other: Type) -> None:
         assert other.kinds - one.kinds
 
 
+def any_types() -> st.SearchStrategy[Type]:
+    """Also types that cannot be enumerated, and sets and lists."""
+    bases = st.one_of(types(), st.sampled_from([INT, REAL, STRING]))
+    kinds = st.sampled_from(["set", "list"])
+    return st.recursive(bases, lambda inner: st.builds(Collection, kinds, inner), max_leaves=3)
+
+
+def values_of(type_: Type) -> st.SearchStrategy[Value]:
+    match type_:
+        case Collection(kind="set", element=element):
+            return st.frozensets(values_of(element), max_size=2)
+        case Collection(element=element):
+            return st.lists(values_of(element), max_size=2).map(tuple)
+        case Optional(base=base):
+            return st.none() | values_of(base)
+        case _ if type_.finite:
+            return st.sampled_from(type_.values)
+        case _ if type_ == STRING:
+            return st.sampled_from(["", "red"])
+        case _:
+            return st.sampled_from([-9, 2, Fraction(1, 2)] if type_ == REAL else [-9, 2])
+
+
+@given(st.data(), any_types(), any_types())
+def test_what_includes_a_type_has_its_values(data: st.DataObject, whole: Type, part: Type) -> None:
+    value = data.draw(values_of(part))
+    assert value in part
+    assert value in whole or not includes(whole, part)
+
+
+@given(any_types(), any_types())
+def test_a_join_includes_both(one: Type, other: Type) -> None:
+    joined = join(one, other)
+    assert joined is None or (includes(joined, one) and includes(joined, other))
+    assert overlap(one, other) == overlap(other, one)
+
+
+@given(any_types(), any_types())
+def test_the_empty_set_says_nothing_of_its_elements(one: Type, other: Type) -> None:
+    empty = Collection("set", NOTHING)
+    assert join(empty, Collection("set", one)) == Collection("set", one)
+    assert includes(Collection("set", one), empty)
+    assert overlap(empty, Collection("set", other))
+    assert is_undetermined(Collection("list", empty))
+
+
+@pytest.mark.parametrize(
+    ("found", "needed", "may"),
+    [
+        (INT, REAL, True),
+        (REAL, INT, False),
+        (REAL, Interval(1, 3), False),
+        (Optional(REAL), Optional(INT), False),
+        (Collection("list", REAL), Collection("list", INT), False),
+        (Collection("list", INT), Collection("list", REAL), True),
+        (Collection("list", INT), Collection("set", INT), False),
+        (Collection("list", COLOUR), Collection("list", INT), False),
+        (NONE, Optional(Collection("list", INT)), True),
+        (REAL, BROKEN, True),
+    ],
+)
+def test_what_may_stand_where_a_type_is_needed(found: Type, needed: Type, may: bool) -> None:
+    assert may_be(found, needed) is may
+
+
 def test_intervals_are_compared_without_listing_them() -> None:
     vast = Interval(0, 2**80)
     assert includes(vast, Interval(1, 2**79))
@@ -67,6 +146,10 @@ def test_intervals_are_compared_without_listing_them() -> None:
         (WARM, MIXED, Enumeration((("red", "colour"), ("blue", "colour"), (1, ""), (2, "")))),
         (BROKEN, BOOL, BROKEN),
         (BOOL, INT, None),
+        (INT, REAL, REAL),
+        (Collection("list", WARM), Collection("list", NONE), Collection("list", Optional(WARM))),
+        (Collection("list", INT), Collection("set", INT), None),
+        (Collection("list", INT), Collection("list", BOOL), None),
     ],
 )
 def test_two_branches_have_the_narrowest_type_that_holds_both(one: Type, other: Type, joined: Type | None) -> None:

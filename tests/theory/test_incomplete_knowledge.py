@@ -44,7 +44,27 @@ def test_one_of_takes_terms_over_the_parameters(theory: Build) -> None:
 
 def test_one_value_is_a_choice_too(theory: Build) -> None:
     built = theory("fluent sure: 1..3 = one of [2]\n")
-    assert built.fluents["sure"].initial.among == Display((Literal(2, type=INT),), type=Collection("list", INT))
+    type_ = Collection("list", Interval(1, 3))
+    assert built.fluents["sure"].initial.among == Display((Literal(2, type=INT),), type=type_)
+
+
+@pytest.mark.parametrize(
+    ("choices", "type_"),
+    [
+        ("floor", Collection("list", FLOOR)),
+        ("near", Collection("list", INT)),
+        ("[n for n: floor where n != 2]", Collection("list", FLOOR)),
+        ("{n for n: floor where n != 2}", Collection("set", FLOOR)),
+        ("around(1)", Collection("list", FLOOR)),
+    ],
+)
+def test_any_term_that_is_a_collection_may_be_chosen_from(theory: Build, choices: str, type_: Collection) -> None:
+    text = (
+        "type floor = 1..3\nconst near = [1, 2]\n"
+        "static around(n: floor): list[floor] = [m for m: floor where m != n]\n"
+        f"fluent load: floor = one of {choices}\n"
+    )
+    assert theory(text).fluents["load"].initial.among.type == type_
 
 
 def test_an_effect_chooses_among_terms_of_the_situation_before_it(theory: Build) -> None:

@@ -5,7 +5,8 @@ from fractions import Fraction
 
 import pytest
 
-from golc.theory.types import number, show, show_call, writable
+from golc.theory.order import spelt
+from golc.theory.types import STRING, Enumeration, number, show, show_call, writable
 
 
 def test_values_are_shown_as_golc_writes_them() -> None:
@@ -31,6 +32,7 @@ def test_a_number_too_large_to_write_is_a_text_in_json() -> None:
         (Fraction(1, 2), "0.5"),
         (Fraction(-2005, 100), "-20.05"),
         (Fraction(1, 3), "1/3"),
+        (Fraction(4, 2), "2"),
         (Fraction(1, 2**200), f"1/{2**200}"),
         (Fraction(1 << 20_000, 3), "0x1000000000… (20001 bits)/3"),
         (frozenset({10, 9, None}), "{none, 9, 10}"),
@@ -47,6 +49,11 @@ def test_real_numbers_sets_lists_and_strings(value: object, text: str) -> None:
 
 def test_strings_among_arguments_stand_in_quotes() -> None:
     assert show_call("greet", ("two words", "red", (1,))) == 'greet("two words", red, [1])'
+
+
+def test_a_string_that_is_known_to_be_one_stands_in_quotes() -> None:
+    assert [show(spelt(value, STRING)) for value in ("", "red", 'a "b"')] == ['""', '"red"', '"a \\"b\\""']
+    assert show(spelt("red", Enumeration((("red", "colour"),)))) == "red"
 
 
 def test_a_set_is_a_list_in_json_and_a_real_number_a_number_that_is_exact() -> None:

@@ -214,3 +214,23 @@ def test_an_axiom_means_what_the_equivalent_clauses_mean(cases: list[Line], stat
         assert after_axiom == causes.progress(state, name, args)
         interpreted = axiom.interpreter.progress(axiom.theory.actions[name], state, args)
         assert after_axiom == interpreted
+
+
+@pytest.mark.parametrize(
+    ("lines", "clauses"),
+    [
+        ("after a(f, q) := unknown", "causes big(p) := unknown"),
+        ("after a(p, f) := one of {p, f} when p != f", "causes big(q) := one of {p, q} when p != q"),
+        (
+            "after a(0, q) := unknown when q = f\nafter a(p, q) := one of {other(p), 2}",
+            "causes big(q) := unknown when p = 0\n    "
+            "causes forall f: t where not (p = 0 and q = f). big(f) := one of {other(p), 2}",
+        ),
+    ],
+)
+def test_an_axiom_leaves_open_what_the_equivalent_clauses_leave_open(lines: str, clauses: str) -> None:
+    cases = "".join(f"    {line}\n" for line in lines.splitlines())
+    axiom = build(f"{BASE}action a(p: t, q: t)\naxiom big(f):\n{cases}    otherwise unchanged\n")
+    causes = build(f"{BASE}action a(p: t, q: t):\n    {clauses}\n")
+    for args in product(range(3), repeat=2):
+        assert axiom.progress(axiom.initial(), "a", args) == causes.progress(causes.initial(), "a", args)

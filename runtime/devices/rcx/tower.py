@@ -174,15 +174,18 @@ class Tower:
         self.statistics.noise = self._decoder.noise
 
 
-def open_tower(port: str, speed: float = 1.0, interrupted: Callable[[], bool] | None = None) -> Tower:
+def open_tower(port: str | Transport, speed: float = 1.0, interrupted: Callable[[], bool] | None = None) -> Tower:
     """An open tower on a port: a tty, a pty's path, a pySerial URL, or ``usb:`` and the path of a character device.
 
-    ``speed`` is the number of simulated seconds in a real one; an exchange is given up when ``interrupted`` says so.
+    Any other transport, which has a clock of its own, will do as well. ``speed`` is the number of simulated seconds in
+    a real one; an exchange is given up when ``interrupted`` says so.
     Raises a LinkError with help if the port cannot be opened: missing, not permitted, busy, not a tty.
     """
     clock = Clock(speed)
     transport: Transport
-    if port.startswith(USB):
+    if not isinstance(port, str):
+        transport = port
+    elif port.startswith(USB):
         # Only this kind needs what Windows does not have.
         from golc.runtime.devices.rcx.chardev import CharacterDevice
 

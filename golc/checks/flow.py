@@ -1,0 +1,277 @@
+"""Programs: what can never happen where it stands (row 6 of what ``golc check`` proves).
+
+Each procedure is walked through with what is known to hold at every place: the conditions passed on the way there, as
+long as nothing that may happen since has touched them. Exogenous actions and the other parts of a concurrent program
+may come between any two steps, unless they are impossible as long as the conditions hold.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, replace
+
+from golc.checks.obligations import Obligations
+from golc.diagnostics import Code, Label, Span
+from golc.proofs.questions import Asked, Question, Step
+from golc.theory import statements as st
+from golc.theory.calls import substatements
+from golc.theory.reading import fluents_read
+from golc.theory.statements import Statement
+from golc.theory.terms import Binder, Literal, Operation, Operator, PossTerm, Term
+from golc.theory.theory import Parameter
+from golc.theory.types import BOOL
+
+
+@dataclass(frozen=True)
+class Place:
+    """What is known at some place of a program.
+
+    ``variables`` are those in scope; ``known`` are formulas over them that hold there. ``others``: the actions that may
+    come between two steps. ``guards``: conditions without which no step is made.
+    """
+
+    variables: tuple[Parameter, ...]
+    known: tuple[Asked, ...] = ()
+    others: frozenset[str] = frozenset()
+    guards: tuple[Asked, ...] = ()
+
+    def asked(self, term: Term, false: bool = False) -> Asked:
+        """A formula of the program here."""
+        return Asked(term, tuple(range(len(self.variables))), false)
+
+    def knowing(self, *more: Asked) -> Place:
+        """The same place, with more that holds."""
+        return replace(self, known=tuple(dict.fromkeys((*self.known, *more))))
+
+    def inside(self, binders: Iterable[Binder]) -> Place:
+        """The place with further variables, of which those that run over a collection are elements of it."""
+        place = self
+        for binder in binders:
+            place = replace(place, variables=(*place.variables, Parameter(binder.variable.name, binder.variable.type)))
+            within = binder.within
+            if within is not None:
+                element = Operation(Operator.ELEMENT, (binder.variable, within), type=BOOL, span=within.span)
+                place = place.knowing(place.asked(element))
+        return place
+
+
+class Flow:
+    """Walks through the programs of a theory."""
+
+    def __init__(self, obligations: Obligations) -> None:
+        self._obligations = obligations
+        self._theory = theory = obligations.theory
+        self._touched = {
+            action.name: frozenset(effect.fluent for effect in action.effects) | fluents_read(theory, action.senses)
+            for action in theory.actions.values()
+        }
+        self._performed: dict[str, frozenset[str]] = {}
+        self._exogenous = frozenset(action.name for action in theory.actions.values() if action.exogenous)
+
+    def check(self) -> None:
+        """Every procedure, whoever calls it."""
+        for procedure in self._theory.procedures.values():
+            self._walk(procedure.body, Place(procedure.parameters, others=self._exogenous))
+
+    def _walk(self, statement: Statement, place: Place) -> Place:
+        """What is known after a statement."""
+        match statement:
+            case st.Sequence(parts=parts):
+                for part in parts:
+                    place = self._walk(part, place)
+                return place
+            case st.Perform():
+                return self._perform(statement, place)
+            case st.Test(condition=condition):
+                self._constant(condition, place, "this test", only=False)
+                return self._later(place.knowing(place.asked(condition)))
+            case st.WaitUntil(condition=condition):
+                return self._later(place, self._exogenous | place.others).knowing(place.asked(condition))
+            case st.Wait() | st.WaitTime() | st.Say():
+                return self._later(place)
+            case st.If():
+                return self._if(statement, place)
+            case st.While():
+                return self._while(statement, place)
+            case st.Choose(branches=branches):
+                return self._common(place, [self._walk(branch, place) for branch in branches])
+            case st.Together(branches=branches) | st.Prefer(branches=branches):
+                return self._concurrent(branches, place)
+            case st.Interrupts():
+                return self._interrupts(statement, place)
+            case st.Pick(binders=binders, where=where, body=body):
+                self._walk(body, _where(place.inside(binders), where))
+                return self._after_all(body, place)
+            case st.For(binders=binders, where=where, body=body):
+                place = self._after_all(body, place)
+                self._walk(body, _where(place.inside(binders), where))
+                return place
+            case st.Let(variable=variable, value=value, body=body):
+                inner = place.inside((Binder(variable),))
+                equal = Operation(Operator.EQUAL, (variable, value), type=BOOL, span=value.span)
+                self._walk(body, inner.knowing(inner.asked(equal)))
+                return self._after_all(body, place)
+            case st.Guard(condition=condition, body=body):
+                held = place.asked(condition)
+                self._walk(body, replace(place, guards=(*place.guards, held)).knowing(held))
+                return self._after_all(body, place)
+            case st.TogetherStar(body=body):
+                others = place.others | self._actions(body)
+                return self._repeated(body, replace(place, others=others), place)
+            case st.Star(body=body):
+                return self._repeated(body, place, place)
+            case st.Search(body=body) | st.Within(body=body):
+                self._walk(body, place)
+                if isinstance(statement, st.Within):
+                    self._walk(statement.otherwise, self._after_all(body, place))
+                return self._after_all(statement, place)
+            case st.Invoke():
+                return self._after_all(statement, place)
+            case _:
+                return place
+
+    # ---- single statements
+
+    def _perform(self, statement: st.Perform, place: Place) -> Place:
+        action = self._theory.actions[statement.action]
+        possible = place.asked(PossTerm(statement.action, statement.args, type=BOOL, span=statement.span))
+        if action.preconditions and action.name not in self._obligations.never_possible:
+            here = (*place.guards, *place.known)
+            what = f"whether `{statement.span.text}` is ever possible here"
+            if here and self._never(place, (*here, possible), what, statement.span):
+                culprits = [known for known in here if self._never(place, (known, possible), "", statement.span)]
+                labels = [Label(known.term.span, _held(known)) for known in culprits or here]
+                message = f"`{statement.span.text}` can never be possible here"
+                self._obligations.warning(
+                    Code.STUCK, message, statement.span, "never possible", (*labels, *self._why(statement))
+                )
+                return replace(place, known=())
+        return self._later(self._without(place.knowing(possible), self._touched[statement.action]))
+
+    def _why(self, statement: st.Perform) -> list[Label]:
+        return [Label(part.span, "needs this") for part in self._theory.actions[statement.action].preconditions[:1]]
+
+    def _if(self, statement: st.If, place: Place) -> Place:
+        holds, fails = place.asked(statement.condition), place.asked(statement.condition, false=True)
+        self._constant(statement.condition, place, "this condition")
+        then = self._walk(statement.then, place.knowing(holds))
+        return self._common(place, [then, self._walk(statement.otherwise, place.knowing(fails))])
+
+    def _while(self, statement: st.While, place: Place) -> Place:
+        condition = statement.condition
+        place = self._after_all(statement.body, place)
+        self._constant(condition, place, "this condition", true=False)
+        self._walk(statement.body, place.knowing(place.asked(condition)))
+        reads = fluents_read(self._theory, [condition])
+        changing = self._actions(statement.body) | place.others
+        if reads and not any(self._touched[name] & reads for name in changing):
+            message = "nothing in this loop changes its condition, so that it never ends once it has begun"
+            self._obligations.warning(Code.ENDLESS_LOOP, message, condition.span, "stays as it is")
+        return place.knowing(place.asked(condition, false=True))
+
+    def _concurrent(self, branches: Sequence[Statement], place: Place) -> Place:
+        for number, branch in enumerate(branches):
+            rest = [self._actions(other) for index, other in enumerate(branches) if index != number]
+            among = replace(place, others=place.others.union(*rest))
+            self._walk(branch, self._later(among))
+        return self._later(place, place.others.union(*map(self._actions, branches)))
+
+    def _interrupts(self, statement: st.Interrupts, place: Place) -> Place:
+        every = frozenset[str]().union(*[self._actions(handler.body) for handler in statement.handlers])
+        place = self._later(place, place.others | every)
+        for handler in statement.handlers:
+            inner = place.inside(handler.binders)
+            self._fires(handler, inner)
+            rest = [self._actions(other.body) for other in statement.handlers if other is not handler]
+            among = replace(inner, others=place.others.union(*rest))
+            self._walk(handler.body, among.knowing(inner.asked(handler.condition)))
+        return place
+
+    def _fires(self, handler: st.Interrupt, place: Place) -> None:
+        condition = handler.condition
+        what = "whether this interrupt can ever fire"
+        if not isinstance(condition, Literal) and self._never(
+            place, (*place.known, place.asked(condition)), what, condition.span
+        ):
+            message = "this interrupt can never fire: its condition is false in every situation"
+            self._obligations.warning(Code.NEVER_FIRES, message, condition.span, "never true")
+
+    def _constant(self, condition: Term, place: Place, what: str, only: bool | None = None, true: bool = True) -> None:
+        """Report a condition that is always true, or always false; with ``only`` or without ``true`` just one of them.
+        What reads no fluent is a matter of constants, which may well be meant."""
+        if not fluents_read(self._theory, [condition]):
+            return
+        question = f"whether {what} is always false"
+        known = (*place.guards, *place.known)
+        if self._never(place, (*known, place.asked(condition)), question, condition.span):
+            self._obligations.warning(Code.CONSTANT, f"{what} is always false here", condition.span, "never true")
+        elif only is not False and true:
+            question = f"whether {what} is always true"
+            if self._never(place, (*known, place.asked(condition, false=True)), question, condition.span):
+                self._obligations.warning(Code.CONSTANT, f"{what} is always true here", condition.span, "never false")
+
+    # ---- what is known
+
+    def _never(self, place: Place, steps: tuple[Step, ...], what: str, span: Span) -> bool:
+        return self._obligations.is_impossible(Question(place.variables, steps), what, span)
+
+    def _later(self, place: Place, others: frozenset[str] | None = None) -> Place:
+        """Other actions may have happened meanwhile, as often as they are possible."""
+        others = place.others if others is None else others
+        while True:
+            touched = frozenset[str]().union(*[self._touched[name] for name in others if self._may_happen(name, place)])
+            kept = self._without(place, touched)
+            if kept.known == place.known:
+                return kept
+            place = kept
+
+    def _may_happen(self, name: str, place: Place) -> bool:
+        reads = fluents_read(self._theory, [known.term for known in place.known])
+        if not self._touched[name] & reads:
+            return False
+        action = self._theory.actions[name]
+        first = len(place.variables)
+        env = tuple(range(first, first + len(action.parameters)))
+        steps = (*place.known, *(Asked(condition, env) for condition in action.preconditions))
+        variables = (*place.variables, *action.parameters)
+        return not self._obligations.is_impossible(Question(variables, steps), "", action.span)
+
+    def _without(self, place: Place, touched: frozenset[str]) -> Place:
+        kept = [known for known in place.known if not fluents_read(self._theory, [known.term]) & touched]
+        return replace(place, known=tuple(kept))
+
+    def _after_all(self, statement: Statement, place: Place) -> Place:
+        """What remains known whatever of a statement has been done, however often."""
+        touched = frozenset[str]().union(*[self._touched[name] for name in self._actions(statement)])
+        return self._later(self._without(place, touched))
+
+    def _repeated(self, body: Statement, inside: Place, place: Place) -> Place:
+        self._walk(body, self._after_all(body, inside))
+        return self._after_all(body, place)
+
+    def _common(self, place: Place, ends: Sequence[Place]) -> Place:
+        shared = [known for known in ends[0].known if all(known in end.known for end in ends)]
+        return replace(place, known=tuple(shared))
+
+    def _actions(self, statement: Statement) -> frozenset[str]:
+        """The primitive actions that a statement may perform, also in procedures."""
+        found: set[str] = set()
+        seen: set[str] = set()
+        stack = [statement]
+        while stack:
+            for part in substatements(stack.pop()):
+                match part:
+                    case st.Perform(action=name):
+                        found.add(name)
+                    case st.Invoke(procedure=name) if name not in seen:
+                        seen.add(name)
+                        stack.append(self._theory.procedures[name].body)
+        return frozenset(found)
+
+
+def _where(place: Place, where: Term | None) -> Place:
+    return place if where is None else place.knowing(place.asked(where))
+
+
+def _held(known: Asked) -> str:
+    return "is false here" if known.false else "holds here"

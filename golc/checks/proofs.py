@@ -1,0 +1,31 @@
+"""What ``golc check`` proves of all situations of a theory (rows 3 to 6)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from golc.checks.effects import check_effects
+from golc.checks.flow import Flow
+from golc.checks.obligations import Obligations
+from golc.diagnostics import Diagnostic, Findings
+from golc.proofs.questions import Prover
+from golc.theory.recursion import deep_recursion
+from golc.theory.theory import BasicActionTheory
+
+
+@dataclass(frozen=True)
+class Proofs:
+    """What came of proving: the findings, how many questions were asked, and how many were not decided."""
+
+    findings: tuple[Diagnostic, ...]
+    asked: int
+    undecided: int
+
+
+def prove(theory: BasicActionTheory) -> Proofs:
+    """Ask whether anything can go wrong in any situation of the right types in which the theory's invariants hold."""
+    obligations = Obligations(theory, Prover(theory), Findings())
+    with deep_recursion():
+        check_effects(obligations)
+        Flow(obligations).check()
+    return Proofs(tuple(obligations.findings.diagnostics), obligations.asked, obligations.undecided)

@@ -1,0 +1,200 @@
+"""The world from above as SVG: the floor, the names of the stations, the robot's path, and what happened on it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import NamedTuple
+from xml.sax.saxutils import escape
+
+from golc.runtime.rcxsim.world.floor import Floor, Rectangle
+from golc.runtime.rcxsim.world.geometry import Point, Pose
+from golc.runtime.rcxsim.world.record import Happening, Record, Step, simplified
+from golc.runtime.rcxsim.world.robot import Robot
+from golc.runtime.rcxsim.world.scene import Scene
+
+MARGIN = 60.0
+"""mm around everything."""
+WIDEST = 1000
+"""Pixels of the longer side."""
+PATH_COLOURS = 24
+"""So many parts of the path have colours of their own, from the first to the last."""
+FIRST_HUE, LAST_HUE = 210, 0
+"""Blue in the beginning, red in the end."""
+SHOWN = {"plays": "♪", "press": "●", "put": "✚", "lift": "↑", "touches": "✖"}
+"""What happens with a mark, and the mark."""
+
+
+class _Box(NamedTuple):
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+
+def draw(scene: Scene, record: Record, pose: Pose) -> str:
+    """The text of an SVG file; ``pose`` is where the robot is in the end."""
+    record.end()
+    paths = record.paths
+    box = _box(scene, paths, pose)
+    width, height = box.right - box.left, box.top - box.bottom
+    scale = WIDEST / max(width, height)
+    size = f'width="{width * scale:.0f}" height="{height * scale:.0f}"'
+    view = f'viewBox="{_n(box.left)} {_n(-box.top)} {_n(width)} {_n(height)}"'
+    # One unit is a mm; y grows upwards in the world and downwards in SVG.
+    text = max(width, height) / 60
+    return "\n".join(
+        [
+            f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} font-family="sans-serif" font-size="{_n(text)}">',
+            f"<title>{escape(_title(record))}</title>",
+            f'<rect x="{_n(box.left)}" y="{_n(-box.top)}" width="{_n(width)}" height="{_n(height)}"'
+            f' fill="{_grey(scene.floor.light)}"/>',
+            *_things(scene.floor),
+            *_names(scene.floor, text),
+            *_path(paths, text),
+            *_marks(record.happenings, text),
+            *_robot(scene.robot, pose),
+            "</svg>",
+            "",
+        ]
+    )
+
+
+def _box(scene: Scene, paths: Iterable[Sequence[Step]], pose: Pose) -> _Box:
+    """What the picture shows: everything on the floor and the whole path, with a margin."""
+    floor, radius = scene.floor, scene.robot.radius
+    points = [(step.x, step.y) for path in paths for step in path]
+    points += [point for line in floor.lines.values() for point in line.points]
+    points += [point for ax, ay, bx, by in floor.walls for point in ((ax, ay), (bx, by))]
+    points += [point for station in floor.stations.values() for point in _corners(station.mark)]
+    for patch in floor.patches:
+        match patch:
+            case Rectangle():
+                points += _corners(patch)
+            case _:
+                points += _around(patch.x, patch.y, patch.radius)
+    points += [*_around(pose.x, pose.y, radius), *_around(scene.robot.start.x, scene.robot.start.y, radius)]
+    xs, ys = [x for x, _ in points], [y for _, y in points]
+    return _Box(min(xs) - MARGIN, min(ys) - MARGIN, max(xs) + MARGIN, max(ys) + MARGIN)
+
+
+def _around(x: float, y: float, radius: float) -> list[Point]:
+    return [(x - radius, y - radius), (x + radius, y + radius)]
+
+
+def _corners(patch: Rectangle) -> list[Point]:
+    ahead, left = patch.length / 2, patch.width / 2
+    return [patch.pose.place(a, b) for a, b in ((ahead, left), (-ahead, left), (-ahead, -left), (ahead, -left))]
+
+
+def _things(floor: Floor) -> Iterator[str]:
+    for patch in floor.patches:
+        match patch:
+            case Rectangle():
+                yield f'<polygon points="{_points(_corners(patch))}" fill="{_grey(patch.light)}"/>'
+            case _:
+                radius, grey = _n(patch.radius), _grey(patch.light)
+                yield f'<circle cx="{_n(patch.x)}" cy="{_n(-patch.y)}" r="{radius}" fill="{grey}"/>'
+    for line in floor.lines.values():
+        stroke = f'stroke="{_grey(line.light)}" stroke-width="{_n(line.width)}"'
+        yield (
+            f'<polyline points="{_points(line.points)}" fill="none" {stroke}'
+            ' stroke-linecap="round" stroke-linejoin="round"/>'
+        )
+    for station in floor.stations.values():
+        yield f'<polygon points="{_points(_corners(station.mark))}" fill="{_grey(station.mark.light)}"/>'
+    for wall in floor.walls:
+        points = _points([wall[:2], wall[2:]])
+        yield f'<polyline points="{points}" stroke="#722" stroke-width="8" stroke-linecap="round"/>'
+
+
+def _names(floor: Floor, text: float) -> Iterator[str]:
+    for station in floor.stations.values():
+        x, y = station.mark.pose.place(0.0, station.mark.width / 2 + 1.2 * text)
+        yield f'<text x="{_n(x)}" y="{_n(-y)}" {CENTRED} font-weight="bold">{escape(station.name)}</text>'
+
+
+CENTRED = 'text-anchor="middle" dominant-baseline="central"'
+
+
+def _path(paths: Sequence[Sequence[Step]], text: float) -> Iterator[str]:
+    """The paths, each part in the colour of its time."""
+    steps = [step for path in paths for step in path]
+    first, last = steps[0].time, steps[-1].time
+    for path in paths:
+        for part, colour in _parts(path, first, last):
+            points = _points([(step.x, step.y) for step in simplified(part)])
+            yield (
+                f'<polyline points="{points}" fill="none" stroke="{colour}" stroke-width="{_n(text / 6)}"'
+                ' stroke-linejoin="round"/>'
+            )
+
+
+def _parts(path: Sequence[Step], first: float, last: float) -> Iterator[tuple[list[Step], str]]:
+    """Pieces of a path with their colours; each begins where the one before ends."""
+
+    def place(step: Step) -> int:
+        return min(PATH_COLOURS - 1, int(PATH_COLOURS * (step.time - first) / ((last - first) or 1)))
+
+    part = [path[0]]
+    for step in path[1:]:
+        part.append(step)
+        if place(step) != place(part[0]):
+            yield part, _colour(place(part[0]))
+            part = [step]
+    if len(part) > 1:
+        yield part, _colour(place(part[0]))
+
+
+def _colour(place: int) -> str:
+    hue = FIRST_HUE + (LAST_HUE - FIRST_HUE) * place / (PATH_COLOURS - 1)
+    return f"hsl({hue:.0f},85%,45%)"
+
+
+def _marks(happenings: Sequence[Happening], text: float) -> Iterator[str]:
+    """What happened, each with its time when a mouse is over it; the same thing at the same place is drawn once."""
+    drawn: dict[tuple[str, int, int], list[Happening]] = {}
+    for happening in happenings:
+        if happening.what in SHOWN:
+            pose = happening.pose
+            key = (SHOWN[happening.what], round(pose.x / text), round(pose.y / text))
+            drawn.setdefault(key, []).append(happening)
+    for (sign, _, _), found in drawn.items():
+        side = list(SHOWN.values()).index(sign) - len(SHOWN) / 2
+        x, y = found[0].pose.x + side * text, found[0].pose.y - text
+        told = "\n".join(f"{happening.time:.1f} s: {happening.what} {happening.text}" for happening in found)
+        yield f'<text x="{_n(x)}" y="{_n(-y)}" {CENTRED} fill="#114">{sign}<title>{escape(told)}</title></text>'
+
+
+def _robot(robot: Robot, pose: Pose) -> Iterator[str]:
+    """Where the robot is in the end: its outline, and where its front is."""
+    outline = 'fill="none" stroke="#111" stroke-width="3"'
+    x, y, radius = _n(pose.x), _n(-pose.y), _n(robot.radius)
+    yield f'<circle cx="{x}" cy="{y}" r="{radius}" {outline}><title>the robot in the end</title></circle>'
+    arrow = [(0.8, 0.0), (0.3, 0.3), (0.3, -0.3)]
+    tip = [pose.place(ahead * robot.radius, left * robot.radius) for ahead, left in arrow]
+    yield f'<polygon points="{_points(tip)}" {outline}/>'
+
+
+def _title(record: Record) -> str:
+    ends = [path[-1].time for path in record.paths]
+    return f"The way of the robot in {max(ends):.0f} seconds, from blue to red"
+
+
+def _grey(light: float) -> str:
+    """The grey of a surface; the eye's range is small, and the picture's is not."""
+    shade = round(255 * min(1.0, max(0.0, (light - DARKEST) / (BRIGHTEST - DARKEST))))
+    return f"#{shade:02x}{shade:02x}{shade:02x}"
+
+
+DARKEST, BRIGHTEST = 25.0, 65.0
+"""What the eye shows over black and over white, about."""
+
+
+def _points(points: Iterable[Point]) -> str:
+    return " ".join(f"{_n(x)},{_n(-y)}" for x, y in points)
+
+
+def _n(number: float) -> str:
+    """A number with a tenth of a mm, as short as possible."""
+    text = f"{number:.1f}".removesuffix(".0")
+    return "0" if text == "-0" else text
