@@ -24,7 +24,7 @@ action look(s: side):
 action enter(s: side):
     poss gate(s) = open
     causes inside := true
-action shove(s: side):
+action jolt(s: side):
     poss gate(s) = shut and not jammed
     causes gate(s) := open
 action pull(s: side):
@@ -45,7 +45,7 @@ TRY = """
             enter(0)
         or:
             choose:
-                shove(0)
+                jolt(0)
             or:
                 pull(0)
             enter(0)
@@ -89,12 +89,12 @@ def test_the_branch_of_the_result_is_followed(start: Start) -> None:
     run = Run(start(TRY, GATES))
     assert [run.step("open"), run.step(), run.step()] == ["look(0)", "enter(0)", "final"]
     run = Run(start(TRY, GATES))
-    assert [run.step("shut"), run.step(), run.step(), run.step()] == ["look(0)", "shove(0)", "enter(0)", "final"]
+    assert [run.step("shut"), run.step(), run.step(), run.step()] == ["look(0)", "jolt(0)", "enter(0)", "final"]
 
 
 def test_nothing_is_searched_again_on_the_way(start: Start) -> None:
     run = Run(start(TRY, GATES))
-    assert [run.step("shut"), run.step(), run.step()] == ["look(0)", "shove(0)", "enter(0)"]
+    assert [run.step("shut"), run.step(), run.step()] == ["look(0)", "jolt(0)", "enter(0)"]
     assert len(run.searches) == 1
 
 
@@ -111,7 +111,7 @@ def test_branches_of_branches_are_followed(start: Start) -> None:
             else:
                 look(1)
                 choose:
-                    shove(1)
+                    jolt(1)
                     enter(1)
                 or:
                     enter(0)
@@ -119,14 +119,14 @@ def test_branches_of_branches_are_followed(start: Start) -> None:
     run = Run(start(body, GATES))
     assert [run.step("shut"), run.step("open"), run.step(), run.step()] == ["look(0)", "look(1)", "enter(1)", "final"]
     run = Run(start(body, GATES))
-    assert [run.step("open"), run.step("shut"), run.step(), run.step()] == ["look(0)", "look(1)", "shove(1)", "enter(1)"]
+    assert [run.step("open"), run.step("shut"), run.step(), run.step()] == ["look(0)", "look(1)", "jolt(1)", "enter(1)"]
     run = Run(start(body, GATES))
     assert [run.step("open"), run.step("open"), run.step(), run.step()] == ["look(0)", "look(1)", "enter(0)", "final"]
     assert len(run.searches) == 1
 
 
 def test_the_choices_are_kept_where_something_else_has_changed(start: Start) -> None:
-    for result, steps in (("open", ["enter(0)", "final"]), ("shut", ["shove(0)", "enter(0)"])):
+    for result, steps in (("open", ["enter(0)", "final"]), ("shut", ["jolt(0)", "enter(0)"])):
         run = Run(start(TRY, GATES))
         run.step(result)
         run.event("set_p")
@@ -138,7 +138,7 @@ def test_before_the_sensing_too(start: Start) -> None:
     run = Run(start(TRY.replace("look(0)", "inc\n        look(0)"), GATES))
     assert run.step() == "inc"
     run.event("set_p")
-    assert [run.step("shut"), run.step(), run.step(), run.step()] == ["look(0)", "shove(0)", "enter(0)", "final"]
+    assert [run.step("shut"), run.step(), run.step(), run.step()] == ["look(0)", "jolt(0)", "enter(0)", "final"]
     assert len(run.searches) == 1
 
 
@@ -154,7 +154,7 @@ def test_a_branch_that_was_not_selected_may_fit_after_an_event(start: Start) -> 
     run = Run(start(TRY, GATES))
     run.step("open")
     run.event("slam")
-    assert [run.step(), run.step(), run.step()] == ["shove(0)", "enter(0)", "final"]
+    assert [run.step(), run.step(), run.step()] == ["jolt(0)", "enter(0)", "final"]
     assert len(run.searches) == 1
 
 
@@ -169,11 +169,11 @@ def test_a_result_that_nobody_thought_of_is_a_reason_to_search(start: Start) -> 
             or:
                 enter(0)
             or:
-                shove(1)
+                jolt(1)
                 enter(1)
     """
     run = Run(start(body, GATES))
-    assert [run.step("shut"), run.step("shut"), run.step(), run.step()] == ["look(0)", "look(1)", "shove(1)", "enter(1)"]
+    assert [run.step("shut"), run.step("shut"), run.step(), run.step()] == ["look(0)", "look(1)", "jolt(1)", "enter(1)"]
     assert len(run.searches) == 2
 
 
@@ -218,13 +218,13 @@ def test_what_is_forgotten_is_sensed_again(start: Start) -> None:
             choose:
                 enter(0)
             or:
-                shove(0)
+                jolt(0)
                 enter(0)
     """
     run = Run(start(body, GATES))
     assert run.step("open") == "look(0)"
     run.event("forget")
-    assert [run.step("shut"), run.step(), run.step()] == ["look(0)", "shove(0)", "enter(0)"]
+    assert [run.step("shut"), run.step(), run.step()] == ["look(0)", "jolt(0)", "enter(0)"]
 
 
 def test_a_lost_plan_says_what_it_counted_on(start: Start) -> None:
