@@ -66,7 +66,7 @@ class OnStop:
 
 
 @dataclass(frozen=True)
-class Line:
+class Cue:
     """When what is done; ``delay`` in microseconds, ``nth`` (from 1) and ``station`` None for any."""
 
     trigger: At | OnSound | OnStop
@@ -79,10 +79,10 @@ class Line:
 class People:
     """Does what a script says; the caller has the clock (microseconds) and says what the robot does."""
 
-    def __init__(self, script: Sequence[Line]) -> None:
+    def __init__(self, script: Sequence[Cue]) -> None:
         self._script = script
         self._seen = [0] * len(script)
-        self._due: list[tuple[int, int, Line, int | None]] = []
+        self._due: list[tuple[int, int, Cue, int | None]] = []
         self._order = 0
         self._starts = 0  # how often the robot has begun to move
         for line in script:
@@ -115,7 +115,7 @@ class People:
             if starts in (None, self._starts):
                 yield line.deed
 
-    def _brought_about(self, kind: type, station: str | None, sound: int | None = None) -> Iterator[Line]:
+    def _brought_about(self, kind: type, station: str | None, sound: int | None = None) -> Iterator[Cue]:
         """The lines whose time it is when something has happened."""
         for place, line in enumerate(self._script):
             trigger = line.trigger
@@ -127,6 +127,6 @@ class People:
             if line.nth in (None, self._seen[place]):
                 yield line
 
-    def _push(self, time: int, line: Line, starts: int | None) -> None:
+    def _push(self, time: int, line: Cue, starts: int | None) -> None:
         heapq.heappush(self._due, (time, self._order, line, starts))
         self._order += 1
