@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from golc.diagnostics import Code, Findings, Label, Span
+from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Span
 from golc.proofs.questions import Prover, Question, Undecided, Witness
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import show_call
@@ -49,7 +49,8 @@ class Obligations:
     def _not_decided(self, why: Undecided, what: str, span: Span) -> None:
         self.undecided += 1
         message = f"{what} is not decided: {why.reason}"
-        self.findings.warning(Code.NOT_DECIDED, message, span, "not decided", why.help)
+        note = Diagnostic(Code.NOT_DECIDED, message, span, Severity.NOTE, "not decided", help=why.help)
+        self.findings.add(note)
 
     def error(
         self, code: Code, message: str, span: Span, marker: str, note: str, labels: tuple[Label, ...] = ()

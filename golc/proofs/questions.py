@@ -21,7 +21,7 @@ from golc.theory.fitting import size
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory, Parameter
-from golc.theory.types import INT, Interval, Type, Value, show, show_call
+from golc.theory.types import INT, Collection, Interval, Type, Value, show, show_call
 
 IN_ORDER, BY_CHANCE = 200, 300
 """How many cases of one question are gone through in order, and tried by chance, before all others in order."""
@@ -286,6 +286,10 @@ def domain(type_: Type) -> Domain:
     """What something of a type may be."""
     if type_ == INT:
         return Range()
+    if isinstance(type_, Collection) and type_.kind == "set" and type_.element.finite and size(type_.element) <= 9:
+        members = type_.element.values
+        subsets = (itertools.combinations(members, count) for count in range(len(members) + 1))
+        return [frozenset(subset) for subset in itertools.chain.from_iterable(subsets)]
     if not type_.finite:
         return None
     if isinstance(type_, Interval) and size(type_) > MOST_CONCRETE:
