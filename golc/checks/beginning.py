@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 from golc.diagnostics import Code, Findings, Label, ProgramError
 from golc.situation.dynamics import Dynamics
+from golc.situation.knowing import placed
 from golc.situation.worlds import Assignment, State, Worlds, survey
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Choice, Term
@@ -28,11 +29,12 @@ class Beginning:
     def cases(self, formula: Term) -> Iterator[tuple[Assignment, bool] | None]:
         """Whether a formula holds in each case that it distinguishes; ends with None if they are too many."""
         compiled = self.dynamics.compiler.term(formula, 0)
-        for number, (case, holds) in enumerate(survey(self.state, lambda world: compiled(world, ()))):
-            if number == MOST:
-                yield None
-                return
-            yield case, bool(holds)
+        with placed((formula,)):
+            for number, (case, holds) in enumerate(survey(self.state, lambda world: compiled(world, ()))):
+                if number == MOST:
+                    yield None
+                    return
+                yield case, bool(holds)
 
     def describe(self, case: Assignment) -> str:
         """What is true in a case."""

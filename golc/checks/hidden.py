@@ -21,15 +21,18 @@ from golc.theory.terms import Choice, Comprehension, Epistemic, Literal, Quantif
 from golc.theory.theory import BasicActionTheory, Effect
 from golc.theory.types import Type, Unknown, Value
 
-MOST = 1_000
-"""How many cases are gone through for a term before it is left undecided."""
+MOST = 2_000
+"""How often a term is evaluated before it is left undecided."""
+
+UNKNOWN = Unknown(())
+"""The answer where it differs from one possible world to another."""
 
 
 class UndecidedError(Exception):
     """It would take too much to find out what can be known of a term."""
 
 
-def hidden_fluents(theory: BasicActionTheory, beginning: Beginning) -> frozenset[str]:
+def _hidden_fluents(theory: BasicActionTheory, beginning: Beginning) -> frozenset[str]:
     """The fluents that are hidden for ever."""
     values = beginning.dynamics.values(beginning.state)
     certain = {name for (name, _), value in values if not isinstance(value, Unknown)}
@@ -96,37 +99,36 @@ class Hidden:
 
     def __init__(self, theory: BasicActionTheory, beginning: Beginning) -> None:
         self.theory = theory
-        self.fluents = hidden_fluents(theory, beginning)
+        self.fluents = _hidden_fluents(theory, beginning)
         self._interpreter = beginning.dynamics.interpreter
         self._state = beginning.state
         names = [name for name, _ in beginning.dynamics.layout.ground_fluents]
         self._slots = frozenset(slot for slot, name in enumerate(names) if name in self.fluents)
+        self._left = 0
 
     def read_by(self, term: Term) -> list[str]:
         """The hidden fluents that a term reads, in alphabetical order."""
         return sorted(self.fluents & fluents_read(self.theory, [term]))
 
-    def answers(self, term: Term) -> set[Value]:
-        """What can be known of a term, whatever all other fluents and the variables are: values, or ``Unknown(())``.
+    def answers(self, term: Term) -> Iterator[Value]:
+        """What can be known of a term, whatever all other fluents and the variables are: values, or ``UNKNOWN``.
 
         Raises ``UndecidedError`` if that takes too much.
         """
         if any(isinstance(part, Epistemic) for part in reached(self.theory, [term])):
             raise UndecidedError
+        self._left = MOST
         try:
-            return {answer for env in _environments(term) for answer in self._in(term, env)}
+            for env in _environments(term):
+                yield from self._in(term, env)
         except (TooManyCasesError, RecursionError):
             raise UndecidedError from None
 
     def _in(self, term: Term, env: tuple[Value, ...]) -> Iterator[Value]:
         """What can be known in each case of what the other fluents may be, which are supposed as they are read."""
         cases: list[dict[int, Value]] = [{}]
-        looked_at = 0
         while cases:
             supposed = cases.pop()
-            looked_at += 1
-            if looked_at > MOST:
-                raise UndecidedError
             try:
                 yield self._known(term, env, supposed)
             except _UnreadError as unread:
@@ -137,17 +139,15 @@ class Hidden:
 
     def _known(self, term: Term, env: tuple[Value, ...], supposed: Mapping[int, Value]) -> Value:
         def ask(world: Readable) -> Value:
+            self._left -= 1
+            if self._left < 0:
+                raise UndecidedError
             case = _Case(world, self._slots, supposed)
             return self._interpreter.evaluate(term, cast(World, case), env)
 
-        first: Value = None
-        for number, (_, answer) in enumerate(survey(self._state, ask)):
-            if number > MOST:
-                raise UndecidedError
-            if number and answer != first:
-                return Unknown(())
-            first = answer
-        return first
+        answers = (answer for _, answer in survey(self._state, ask))
+        first = next(answers)
+        return first if all(answer == first for answer in answers) else UNKNOWN
 
 
 def _environments(term: Term) -> Iterator[tuple[Value, ...]]:

@@ -10,14 +10,14 @@ from collections.abc import Iterator
 from typing import Literal, TypeAlias
 
 from golc.checks.beginning import Beginning
-from golc.checks.hidden import Hidden, UndecidedError
+from golc.checks.hidden import UNKNOWN, Hidden, UndecidedError
 from golc.diagnostics import Code, Findings, Label
 from golc.theory import statements as typed
 from golc.theory.calls import substatements
 from golc.theory.statements import Statement
 from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import Unknown
+from golc.theory.types import Value
 
 Use: TypeAlias = Literal["test", "decision", "value"]
 """What a term is for: it has to be known to be true, to be true or false, or to have some value."""
@@ -30,29 +30,43 @@ def check_knowledge(theory: BasicActionTheory, beginning: Beginning, findings: F
         return
     for term, use in _uses(theory):
         fluents = hidden.read_by(term)
-        if not fluents:
-            continue
-        try:
-            answers = hidden.answers(term)
-        except UndecidedError:
-            continue
-        problem = _problem(use, answers) if Unknown(()) in answers else None
+        problem = _problem(use, hidden.answers(term)) if fluents else None
         if problem is not None:
             _report(theory, term, fluents, use, problem, findings)
 
 
-def _problem(use: Use, answers: set[object]) -> str | None:
-    """What can never be known of a term, if it matters; ``answers`` are all that there can be, one of them unknown."""
-    certain = answers - {Unknown(())}
+def _problem(use: Use, answers: Iterator[Value]) -> str | None:
+    """What can never be known of a term; none if it does not matter, or there is no telling."""
+    found: set[Value] = set()
+    try:
+        for answer in answers:
+            found.add(answer)
+            if _harmless(use, found - {UNKNOWN}):
+                return None
+    except UndecidedError:
+        return None
+    if UNKNOWN not in found:
+        return None
     match use:
         case "value":
-            return None if certain else "what `{}` is"
+            return "what `{}` is"
+        case "decision" if len(found) == 1:
+            return "whether `{}` is true"
+        case "decision" if True in found:
+            return "that `{}` is false"
+        case _:
+            return "that `{}` is true"
+
+
+def _harmless(use: Use, certain: set[Value]) -> bool:
+    """Whether there are cases in which enough is known."""
+    match use:
+        case "value":
+            return bool(certain)
         case "test":
-            return None if True in certain else "that `{}` is true"
+            return True in certain
         case "decision":
-            if not certain:
-                return "whether `{}` is true"
-            return None if certain == {True, False} else f"that `{{}}` is {str(False in certain).lower()}"
+            return {True, False} <= certain
 
 
 def _report(

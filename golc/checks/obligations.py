@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from golc.diagnostics import Code, Findings, Label, Span
+from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Span
 from golc.proofs.prover import Prover
 from golc.proofs.questions import Question, Undecided, Witness
 from golc.theory.theory import Action, BasicActionTheory
@@ -50,7 +50,8 @@ class Obligations:
     def _not_decided(self, why: Undecided, what: str, span: Span) -> None:
         self.undecided += 1
         message = f"{what} is not decided: {why.reason}"
-        self.findings.warning(Code.NOT_DECIDED, message, span, "not decided", why.help)
+        note = Diagnostic(Code.NOT_DECIDED, message, span, Severity.NOTE, "not decided", help=why.help)
+        self.findings.add(note)
 
     def error(
         self, code: Code, message: str, span: Span, marker: str, note: str, labels: tuple[Label, ...] = ()

@@ -98,7 +98,9 @@ class Json(Listing):
 
 
 def _as_object(step: Step) -> dict[str, Any]:
-    return {"action" if isinstance(step, Act) else "expected": step.action, "args": writable(step.args)}
+    if isinstance(step, Act):
+        return {"action": step.action, "args": writable(step.written)}
+    return {"expected": step.action, "args": writable(step.args)}
 
 
 def _json_text(thing: Any) -> Iterator[str]:

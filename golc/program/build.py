@@ -13,6 +13,7 @@ from golc.program.rules import Rule
 from golc.situation.compile import FORMULA
 from golc.situation.dynamics import Dynamics
 from golc.theory import statements as st
+from golc.theory.order import is_written_by_type
 from golc.theory.terms import Binder, Term, Variable, ranges, subterms
 from golc.theory.theory import Parameter, Procedure
 from golc.theory.types import Number, Value, show
@@ -71,7 +72,9 @@ class Builder:
             case st.Perform(action=action, args=args):
                 parameters = self.theory.actions[action].parameters
                 possible = self.dynamics.possible_function(action)
-                return rules.Perform(span, action, self._args(action, parameters, args, depth), possible)
+                values, types = self._args(action, parameters, args, depth), [each.type for each in parameters]
+                typed = tuple(types) if any(map(is_written_by_type, types)) else ()
+                return rules.Perform(span, action, values, typed, possible)
             case st.Invoke(procedure=name):
                 return self._invoke(statement, self.theory.procedures[name], depth)
             case st.Test(condition=condition):

@@ -7,7 +7,8 @@ from typing import NamedTuple, TypeAlias
 
 from golc.diagnostics import Span
 from golc.program.nodes import Node
-from golc.theory.types import Value, show_call
+from golc.theory.order import spelt
+from golc.theory.types import Type, Value, show_call
 
 
 @dataclass(frozen=True, slots=True)
@@ -19,14 +20,23 @@ class Silent:
 
 @dataclass(frozen=True, slots=True)
 class Act:
-    """A primitive action with its arguments, by the statement at ``span``."""
+    """A primitive action with its arguments, by the statement at ``span``.
+
+    ``types``: those of the arguments, unless all are written the same whatever their types.
+    """
 
     action: str
     args: tuple[Value, ...]
     span: Span = field(compare=False, repr=False)
+    types: tuple[Type, ...] = field(default=(), compare=False, repr=False)
+
+    @property
+    def written(self) -> tuple[Value, ...]:
+        """The arguments as they are to be written."""
+        return tuple(map(spelt, self.args, self.types)) if self.types else self.args
 
     def __str__(self) -> str:
-        return show_call(self.action, self.args)
+        return show_call(self.action, self.written)
 
 
 @dataclass(frozen=True, slots=True)

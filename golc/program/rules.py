@@ -23,7 +23,7 @@ from golc.program.nodes import Node
 from golc.program.walks import Proof, Walk
 from golc.situation.worlds import State
 from golc.theory.terms import Term
-from golc.theory.types import Value
+from golc.theory.types import Type, Value
 
 if TYPE_CHECKING:
     from golc.program.program import Program
@@ -88,20 +88,26 @@ class Step(Rule):
 
 
 class Perform(Step):
-    """*a*: a primitive action whose precondition holds; its arguments are evaluated now."""
+    """*a*: a primitive action whose precondition holds; its arguments are evaluated now. ``types`` as for ``Act``."""
 
     def __init__(
-        self, span: Span, action: str, args: Callable[[State, Env], Env], possible: Callable[..., bool]
+        self,
+        span: Span,
+        action: str,
+        args: Callable[[State, Env], Env],
+        types: tuple[Type, ...],
+        possible: Callable[..., bool],
     ) -> None:
         super().__init__(span)
         self.action = action
         self.args = args
+        self.types = types
         self.possible = possible
 
     def trans(self, walk: Walk, node: Node) -> Found:
         args = self.args(walk.state, node.operands)
         if self.possible(walk.state, *args):
-            return Act(self.action, args, self.span), walk.machine.program.nil
+            return Act(self.action, args, self.span, self.types), walk.machine.program.nil
         walk.machine.blame(self, "impossible", self.action, args)
         return None
 

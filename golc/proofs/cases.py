@@ -9,24 +9,13 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from typing import TypeAlias, TypeVar
+from typing import TypeVar
 
+from golc.proofs.domains import Domain, Some
 from golc.proofs.symbols import MOST_CONCRETE, NotDecidedError, Range, Symbol
 from golc.theory.types import Value
 
 T = TypeVar("T")
-
-
-@dataclass(frozen=True)
-class Some:
-    """A few of more values than can be gone through: a witness may be among them, but no proof that there is none."""
-
-    values: tuple[Value, ...]
-
-
-Domain: TypeAlias = Sequence[Value] | Range | Some
-"""What a slot may hold: values that can be gone through, a range of integers, or more than that."""
 
 
 class Case:

@@ -5,23 +5,22 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from golc.diagnostics import ProgramError
-from golc.proofs.cases import Case, Domain, Some, explore, sample
+from golc.proofs.cases import Case, explore, sample
+from golc.proofs.domains import Domain, Some, domain
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Undecided, Witness
-from golc.proofs.symbols import MOST_CONCRETE, NotDecidedError, Range
+from golc.proofs.symbols import NotDecidedError, Range
 from golc.proofs.weaken import Weakening
 from golc.situation.branching import Clause, Options
 from golc.situation.compile import Cell, Compiler
 from golc.situation.layout import Layout
-from golc.theory.fitting import size
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import INT, STRING, Collection, Interval, Optional, Type, Value, show_call
+from golc.theory.types import Value, show_call
 
 IN_ORDER, BY_CHANCE = 200, 300
 """How many cases of one question are gone through in order, and tried by chance, before all others in order."""
@@ -52,6 +51,7 @@ class Prover:
 
     def answer(self, question: Question) -> Witness | Undecided | None:
         """A witness, as small as one that is found early; none if there is provably none."""
+        question = self._weakening.in_order(question)
         answer = self._explored(question)
         weaker = self._weakening.weaker(question) if isinstance(answer, Undecided) else None
         if weaker is None or (not weaker.steps and not question.fails):
@@ -221,36 +221,6 @@ class _After:
         """Decide something about what the agent knows, which is connected with what it knew before the action."""
         self._case.guesses += 1
         return self._case.guess()
-
-
-def domain(type_: Type) -> Domain:
-    """What something of a type may be."""
-    if type_ == INT:
-        return Range()
-    if isinstance(type_, Interval) and size(type_) > MOST_CONCRETE:
-        return Range(type_.low, type_.high)
-    return type_.values if type_.finite and size(type_) <= MOST_CONCRETE else Some(some(type_))
-
-
-MOST_ELEMENTS = 6
-"""Of how many elements lists are made, to find a witness among them."""
-
-
-def some(type_: Type) -> tuple[Value, ...]:
-    """A few values of a type that has too many."""
-    match type_:
-        case Optional(base=base):
-            return (None, *some(base))
-        case Collection(kind=kind, element=element):
-            parts = some(element)[:MOST_ELEMENTS]
-            lists = [(), *[(part,) for part in parts], *itertools.permutations(parts[:2], 2), parts[:1] * 2, parts[:1] * 8, parts]
-            return tuple(dict.fromkeys(map(frozenset, lists) if kind == "set" else lists))
-        case _ if type_.finite:
-            return tuple(type_.values[:MOST_ELEMENTS])
-        case _ if type_ == STRING:
-            return ("", "a", "b")
-        case _:
-            return (0, 1, 2, -1, *([Fraction(1, 2)] if "real" in type_.kinds else []))
 
 
 def _worth(case: Case) -> tuple[bool, int]:

@@ -10,7 +10,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
 from golc.proofs.certain import NO_FACTS, Certainty, Facts
+from golc.proofs.domains import Some, domain
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step
+from golc.proofs.symbols import MOST_CONCRETE, Range
 from golc.theory.reading import reached
 from golc.theory.terms import Choice, FluentTerm, Operation, Operator, Term, Variable, ranges
 from golc.theory.theory import BasicActionTheory, Effect
@@ -32,6 +34,17 @@ class Weakening:
         names = self.theory.invariants
         return tuple([name for name in names if self._are_definite([self.theory.definitions[name].body])])
 
+    def in_order(self, question: Question) -> Question:
+        """The question with the steps first that tell few cases apart, unless it matters which step fails."""
+        if question.fails:
+            return question
+        return replace(question, steps=tuple(sorted(_single(question.steps), key=self._weight)))
+
+    def _weight(self, step: Step) -> int:
+        """About how many values a step reads."""
+        read = {part for part in reached(self.theory, self._terms(step)) if _is_read(part)}
+        return sum(MOST_CONCRETE if isinstance(of, Some | Range) else len(of) for of in [domain(p.type) for p in read])
+
     def weaker(self, question: Question) -> Question | None:
         """A question with fewer steps; none if all of them are needed."""
         steps = [*_single(question.steps)]
@@ -40,8 +53,6 @@ class Weakening:
             return replace(question, steps=())
         pairs = zip(steps, certain, strict=True)
         kept = [step for step, sure in pairs if not sure or self._are_definite(self._terms(step))]
-        if not question.fails:
-            kept.sort(key=lambda step: any(map(_is_read, reached(self.theory, self._terms(step)))))  # constants first
         return replace(question, steps=tuple(kept)) if len(kept) < len(steps) else None
 
     def _certain(self, steps: list[Step]) -> list[bool]:
@@ -111,4 +122,4 @@ def _is_read(part: Term) -> bool:
 
 
 def _is_vague(type_: Type) -> bool:
-    return not type_.kinds.isdisjoint({"set", "list", "string"})
+    return isinstance(domain(type_), Some) and "real" not in type_.kinds  # with real numbers a solver calculates

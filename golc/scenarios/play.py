@@ -201,17 +201,18 @@ class _Play:
             self._event(event)
 
     def _event(self, event: GroundCall) -> None:
+        call = self.dynamics.call(event.name, event.args)
         if not self.dynamics.possible(self.now, event.name, event.args):
             why = impossible(self.dynamics, self.now, event.name, event.args)
-            message = f"`{event}` cannot happen here"
+            message = f"`{call}` cannot happen here"
             labels = (Label(why.span, valued(why)),)
             raise ProgramError(Diagnostic(Code.SCENARIO, message, event.span, labels=labels))
         before = self.dynamics.witness(self.state, event.name, event.args)
         self.state = self.dynamics.progress(self.state if before is None else before, event.name, event.args)
         self.world = self.dynamics.realize(self.dynamics.progress(self.world, event.name, event.args))
         self.played.events += 1
-        self.played.trace.append(f"      <- {event}")
-        self.invariants.check(self.now, str(event), event.span)
+        self.played.trace.append(f"      <- {call}")
+        self.invariants.check(self.now, call, event.span)
         self.judge.happened(event.name, event.args, exogenous=True)
         self._end_at_last(event.span)
 

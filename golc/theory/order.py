@@ -84,3 +84,8 @@ def arranged(value: Value, type_: Type) -> Value:
 def spelt(value: Value, type_: Type) -> Value:
     """A value of a type as it is to be written where it stands beside a name or other values: a string in quotes."""
     return Quoted(value) if isinstance(value, str) and "string" in type_.kinds else arranged(value, type_)
+
+
+def is_written_by_type(type_: Type) -> bool:
+    """Whether a value of a type may be written in another way than if nothing was known of its type."""
+    return not type_.kinds.isdisjoint({"string", "set", "list"})

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from golc.diagnostics import Diagnostic
+from golc.diagnostics import Diagnostic, Severity
 from golc.loading import examine
 
 ROOT = Path(__file__).parents[2]
@@ -41,12 +41,16 @@ def test_the_original_delivery_robot_has_three_faults() -> None:
     )
 
 
+COLLECTIONS = ("husbands",)
+"""Examples with fluents that hold sets and lists, of which not everything is decided."""
+
+
 @pytest.mark.parametrize("path", sorted(ROOT.glob("examples/*/*.gl")), ids=lambda path: path.stem)
-def test_everything_about_the_examples_is_decided(path: Path) -> None:
+def test_nothing_is_wrong_with_the_examples(path: Path) -> None:
     examined = examine(path, proofs=True)
-    assert examined.findings == ()
+    assert [finding for finding in examined.findings if finding.severity is not Severity.NOTE] == []
     assert examined.asked > 0
-    assert examined.undecided == 0
+    assert (examined.undecided == 0) is (path.stem not in COLLECTIONS)
 
 
 DOMAIN = """\

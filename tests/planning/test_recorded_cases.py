@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from golc.loading import load
+from golc.planning.goals import GoalPlanning
 from golc.planning.limits import Limits
 from golc.planning.planner import Planning, executable
 from golc.program.labels import Act, Wait
@@ -57,8 +58,22 @@ def test_the_elevator_runs_as_recorded(name: str) -> None:
 
 def test_the_reactive_elevator_runs_as_recorded() -> None:
     recorded = case("elevator-reactive-quiet")
-    assert run(TESTS / "programs" / "reactive-elevator.gl", "control") == (recorded["outcome"], recorded["actions"])
+    assert run(EXAMPLES / "elevator" / "reactive.gl", "control") == (recorded["outcome"], recorded["actions"])
 
 
 def test_the_lift_has_the_recorded_executions_each_once() -> None:
     assert plans(TESTS / "programs" / "lift.gl", "control", all_plans=True) == case("lift-two-calls")["executions"]
+
+
+def test_the_ten_blocks_have_the_one_recorded_plan_of_the_least_length() -> None:
+    theory = load(EXAMPLES / "blocks" / "blocks.gl")
+    recorded = case("blocks-ten")["actions"]
+    (goal,) = GoalPlanning(theory, "done", Limits())
+    assert [_as_recorded(str(action)) for action in goal.actions] == recorded
+    (plan,) = Planning(executable(theory, "control"), Limits(steps=11), all_plans=True)
+    assert [_as_recorded(str(action)) for action in plan.actions] == recorded
+    assert not list(Planning(executable(theory, "control"), Limits(steps=10)))
+
+
+def _as_recorded(action: str) -> str:
+    return action.replace(", ", ",")

@@ -35,6 +35,8 @@ action off(n: digit):
 action push(n: digit):
     causes todo := todo + [n]
     causes seen := seen - {n}
+type colour = {red, green, blue}
+action paint(cs: set[colour], names: list[string], by: real)
 action never:
     poss false
 exog set_x(n: int):

@@ -112,3 +112,8 @@ def test_a_long_list_is_gone_through(start: Start) -> None:
             act(n)
     """)
     assert program.run()[-1] == "act(30000)"
+
+
+def test_an_action_is_written_by_the_types_of_its_arguments(start: Start) -> None:
+    program = start('paint({blue, red}, ["one", "two words"], 0.5)')
+    assert program.run() == ['paint({red, blue}, ["one", "two words"], 0.5)']

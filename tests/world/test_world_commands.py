@@ -184,3 +184,15 @@ def test_a_program_that_nqc_refuses_is_told_at_its_place(room: Path) -> None:
     assert code == 1
     assert "nqc: undefined variable 'speed'" in err
     assert "d.nqc:1:17" in err
+
+
+def test_the_sorter_sees_the_bricks_that_lie_in_its_world(tmp_path: Path) -> None:
+    sorter = DELIVERY.parent / "sorter"
+    bricks = re.findall(r"^size.*\nlight = (\d+)", (sorter / "sorter.toml").read_text(), re.MULTILINE)
+    code, out, err = golc("run", sorter / "sorter.gl", "--speed", 50)
+    assert (code, err) == (0, "")
+    assert re.findall(r"answered (\w+)", out) == ["light" if int(light) > 50 else "dark" for light in bricks]
+    other = tmp_path / "other.toml"
+    other.write_text((sorter / "sorter.toml").read_text().replace("light = 60", "light = 30"))
+    code, out, err = golc("run", sorter / "sorter.gl", "--speed", 50, "--world", other)
+    assert re.findall(r"answered (\w+)", out) == ["dark"] * 5

@@ -10,8 +10,6 @@ from golc.bytecode.image import ChunkType
 SLOTS = 5
 MOST = {ChunkType.TASK: 10, ChunkType.SUB: 8}
 """Tasks and subs of a slot."""
-RETURN = 0xF6
-"""The firmware appends it to every sub."""
 
 Step = tuple[Callable[..., object], int, int]
 """An instruction made ready: what it does, the place after it, and its time in microseconds."""
