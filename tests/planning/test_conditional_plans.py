@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -221,3 +222,11 @@ def test_a_conformant_plan_works_without_any_result(
             assert not plan.cases
             assert validity(theory, conformant=True).of_program(as_printed(plan))
             assert strategy is Strategy.FIRST or weight(plan) == wanted
+
+
+def test_plans_that_branch_are_not_listed(theory_of: TheoryOf) -> None:
+    theory = theory_of("domain d\nfluent p: bool = unknown\naction a:\n    senses p\nproc control:\n    a\n")
+    with pytest.raises(ValueError, match="plans that branch by what is sensed are not listed"):
+        Planning(executable(theory, "control"), Limits(), all_plans=True)
+    blind = Planning(executable(theory, "control", conformant=True), Limits(), all_plans=True)
+    assert [[str(act) for act in plan.actions] for plan in blind] == [["a"]]
