@@ -14,18 +14,47 @@ if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
     from golc.theory.theory import BasicActionTheory
 
+LINES = ("text", "github")
+"""The formats that need not wait for the last file."""
+
+
+def _starts(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
+    from golc.reporting.selection import parse_codes
+
+    try:
+        return tuple(start for value in values for start in parse_codes(value))
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
 
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
 @click.option(
-    "--format", "form", type=click.Choice(["text", "json"]), default="text", help="How to write the findings."
+    "--format",
+    "form",
+    type=click.Choice(["text", "json", "sarif", "github"]),
+    default="text",
+    help="How to write the findings.",
 )
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
+@click.option(
+    "--select", multiple=True, metavar="CODES", callback=_starts, help="Only findings whose codes begin so: GL0,GL041."
+)
+@click.option(
+    "--ignore", multiple=True, metavar="CODES", callback=_starts, help="No findings whose codes begin so: GL027."
+)
 @constants_option
 @console_options
 def command(
-    files: tuple[str, ...], form: str, strict: bool, no_proofs: bool, constants: Mapping[str, str], console: Console
+    files: tuple[str, ...],
+    form: str,
+    strict: bool,
+    no_proofs: bool,
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    constants: Mapping[str, str],
+    console: Console,
 ) -> int:
     """Find what is wrong with domain files, without running them.
 
@@ -37,42 +66,49 @@ def command(
     """
     from golc.diagnostics import Severity
     from golc.loading import examine
+    from golc.reporting.ignores import heed
+    from golc.reporting.selection import Selection
 
+    selection = Selection(select, ignore)
     findings: list[Diagnostic] = []
     asked = undecided = 0
     for file in files:
         examined = examine(file, constants, proofs=not no_proofs)
-        findings.extend(examined.findings)
+        found = [finding for finding in heed(examined, not no_proofs) if selection.wants(finding.code)]
+        findings.extend(found)
         asked += examined.asked
         undecided += examined.undecided
-        if form == "text":
-            _write(console, examined.findings)
+        if form in LINES:
+            _write(console, found, form)
         if console.verbosity > 0:
             console.err(f"{file}: {_contents(examined.theory)}")
     errors = sum(finding.severity is Severity.ERROR for finding in findings)
     warnings = sum(finding.severity is Severity.WARNING for finding in findings)
-    if form == "json":
+    if form not in LINES:
         counts = {"errors": errors, "warnings": warnings, "questions": asked, "undecided": undecided}
-        _write_json(console, findings, counts)
+        _write_whole(console, findings, counts, form)
     console.note(_summary(len(files), errors, warnings, undecided))
     return int(errors > 0 or (strict and warnings > 0))
 
 
-def _write(console: Console, findings: Iterable[Diagnostic]) -> None:
+def _write(console: Console, findings: Iterable[Diagnostic], form: str) -> None:
     import sys
 
     from golc.rendering import render
+    from golc.reporting.github import annotation
 
     for finding in findings:
-        console.out(render(finding, console.colored(sys.stdout)) + "\n")
+        console.out(annotation(finding) if form == "github" else render(finding, console.colored(sys.stdout)) + "\n")
 
 
-def _write_json(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, int]) -> None:
+def _write_whole(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, int], form: str) -> None:
     import json
 
     from golc.rendering import to_json
+    from golc.reporting import sarif
 
-    console.out(json.dumps({"findings": [to_json(finding) for finding in findings], **counts}, indent=2))
+    json_ = {"findings": [to_json(finding) for finding in findings], **counts}
+    console.out(json.dumps(sarif.log(findings, counts) if form == "sarif" else json_, indent=2))
 
 
 def _summary(files: int, errors: int, warnings: int, undecided: int) -> str:

@@ -65,7 +65,7 @@ class GroundActions:
         return [self._why_not(state, ground) for ground in self._ground[:most]]
 
     def _prune(self, before: State, label: Act, after: State) -> str | None:
-        return self._prunes.hit(before, label.action, label.args, after) if self._prunes else None
+        return self._prunes.hit(before, label.action, label.args, after)
 
     def _why_not(self, state: State, ground: _Ground) -> Blocked:
         label = ground.label

@@ -18,7 +18,7 @@ Holds: TypeAlias = Callable[[State, Args, State], bool]
 
 
 class Prunes:
-    """The prunes of a theory, compiled; true if there are any."""
+    """The prunes of a theory, compiled."""
 
     def __init__(self, dynamics: Dynamics) -> None:
         self._dynamics = dynamics
@@ -27,9 +27,6 @@ class Prunes:
             for prune in dynamics.theory.prunes.values():
                 speaks_of_before = any(isinstance(term, Before) for term in subterms(prune.condition))
                 self._prunes.append((prune, (self._between if speaks_of_before else self._afterwards)(prune)))
-
-    def __bool__(self) -> bool:
-        return bool(self._prunes)
 
     def hit(self, before: State, action: str, args: Args, after: State) -> str | None:
         """The first prune that holds in the state to which an action has led, by its name; none if none does."""
