@@ -115,6 +115,7 @@ class Code(Enum):
     DEVICE = ("GL029", "a device block says what its kind cannot do")
     BINDING = ("GL030", "a binding does not fit its action")
     LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
+    IDLE_IGNORE = ("GL032", "a `golc: ignore` comment has no effect")
 
     EFFECT_CONFLICT = ("GL040", "two effects of an action may give one fluent two values")
     EFFECT_FAILS = ("GL041", "an action can go wrong where it is possible")

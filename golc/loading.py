@@ -37,13 +37,15 @@ def load(path: str | Path, constants: Mapping[str, str] | None = None, goal: str
 class Examined:
     """A domain file: its theory, or none if it has errors, and all findings in the order of their places.
 
-    ``asked``: how many questions about all its situations were put; ``undecided``: how many of them were not decided.
+    ``sources``: the texts of it and of what it imports, its own first; none if it cannot be read. ``asked``: how many
+    questions about all its situations were put; ``undecided``: how many of them were not decided.
     """
 
     theory: BasicActionTheory | None
     findings: tuple[Diagnostic, ...]
     asked: int = 0
     undecided: int = 0
+    sources: tuple[Source, ...] = ()
 
 
 def examine(
@@ -62,7 +64,7 @@ def examine(
     if file is not None and goal is not None:
         file = _with_goal(file, goal, findings)
     if file is None:
-        return Examined(None, tuple(sorted(findings.diagnostics, key=_place((source,)))))
+        return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
     file, sources = joined.file, joined.sources
     theory = elaborate(file, source, findings, constants, sources)
@@ -75,9 +77,10 @@ def examine(
                     findings.add(diagnostic)
         if proofs and not findings.has_errors:
             proved = prove(theory)
-    found = sorted([*findings.diagnostics, *(proved.findings if proved else ())], key=_place(sources))
+    found = sorted([*findings.diagnostics, *(proved.findings if proved else ())], key=by_place(sources))
     theory = None if findings.has_errors else theory
-    return Examined(theory, tuple(found), proved.asked if proved else 0, proved.undecided if proved else 0)
+    asked, undecided = (proved.asked, proved.undecided) if proved else (0, 0)
+    return Examined(theory, tuple(found), asked, undecided, sources)
 
 
 def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:
@@ -90,7 +93,7 @@ def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:
     return replace(file, declarations=(*file.declarations, goal))
 
 
-def _place(sources: tuple[Source, ...]) -> Callable[[Diagnostic], tuple[int, int, int, str]]:
+def by_place(sources: tuple[Source, ...]) -> Callable[[Diagnostic], tuple[int, int, int, str]]:
     """A key that orders findings by file and place: what is wrong with the command line (``-D``) comes first, a goal
     from there last."""
     ranks = {id(source): rank for rank, source in enumerate(sources)}

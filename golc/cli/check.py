@@ -18,6 +18,15 @@ LINES = ("text", "github")
 """The formats that need not wait for the last file."""
 
 
+def _starts(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
+    from golc.reporting.selection import parse_codes
+
+    try:
+        return tuple(start for value in values for start in parse_codes(value))
+    except ValueError as error:
+        raise click.BadParameter(str(error)) from None
+
+
 @click.command()
 @click.argument("files", nargs=-1, required=True, metavar="FILE…")
 @click.option(
@@ -29,10 +38,23 @@ LINES = ("text", "github")
 )
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
+@click.option(
+    "--select", multiple=True, metavar="CODES", callback=_starts, help="Only findings whose codes begin so: GL0,GL041."
+)
+@click.option(
+    "--ignore", multiple=True, metavar="CODES", callback=_starts, help="No findings whose codes begin so: GL027."
+)
 @constants_option
 @console_options
 def command(
-    files: tuple[str, ...], form: str, strict: bool, no_proofs: bool, constants: Mapping[str, str], console: Console
+    files: tuple[str, ...],
+    form: str,
+    strict: bool,
+    no_proofs: bool,
+    select: tuple[str, ...],
+    ignore: tuple[str, ...],
+    constants: Mapping[str, str],
+    console: Console,
 ) -> int:
     """Find what is wrong with domain files, without running them.
 
@@ -44,16 +66,20 @@ def command(
     """
     from golc.diagnostics import Severity
     from golc.loading import examine
+    from golc.reporting.ignores import heed
+    from golc.reporting.selection import Selection
 
+    selection = Selection(select, ignore)
     findings: list[Diagnostic] = []
     asked = undecided = 0
     for file in files:
         examined = examine(file, constants, proofs=not no_proofs)
-        findings.extend(examined.findings)
+        found = [finding for finding in heed(examined, not no_proofs) if selection.wants(finding.code)]
+        findings.extend(found)
         asked += examined.asked
         undecided += examined.undecided
         if form in LINES:
-            _write(console, examined.findings, form)
+            _write(console, found, form)
         if console.verbosity > 0:
             console.err(f"{file}: {_contents(examined.theory)}")
     errors = sum(finding.severity is Severity.ERROR for finding in findings)

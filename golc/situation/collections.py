@@ -21,10 +21,11 @@ def made(compiler: Compiler, term: Display | Comprehension | Text, cells: Cells,
         return compiler.constant(value)
     match term:
         case Text():
-            return f"''.join(({''.join(f'{_text(compiler, part, cells, depth)}, ' for part in term.parts)}))"
+            texts = [f"{_text(compiler, part, cells, depth)}, " for part in term.parts]
+            return f"''.join(({''.join(texts)}))"
         case Display():
-            found = f"({''.join(f'{compiler.expression(part, cells, depth)}, ' for part in term.elements)})"
-            return f"frozenset({found})" if _is_set(term) else found
+            texts = [f"{compiler.expression(part, cells, depth)}, " for part in term.elements]
+            return f"frozenset(({''.join(texts)}))" if _is_set(term) else f"({''.join(texts)})"
         case Comprehension():
             inner, clauses = compiler.loops(term.binders, term.where, cells, depth)
             found = f"[{compiler.expression(term.element, inner, depth)} {clauses}]"

@@ -1,0 +1,108 @@
+"""Comments that leave out findings: ``# golc: ignore[GL027]`` at the end of a line, or alone above it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from golc.diagnostics import Code, Diagnostic, Severity, Source, Span
+from golc.loading import Examined, by_place
+from golc.reporting.selection import CODES
+from golc.theory.suggest import did_you_mean
+
+TEXT_OR_COMMENT = re.compile(r'"(?:\\.|[^"\\\n])*"|(?P<comment>#[^\n]*)')
+DIRECTIVE = re.compile(r"#\s*golc:\s*(?P<word>\w+)(?:\s*\[(?P<codes>[^\]\n]*)\]?)?")
+WORD = "ignore"
+
+
+@dataclass(frozen=True)
+class Ignore:
+    """A comment: its place, that of its word, the line (from 1) whose findings it leaves out, those of its codes.
+
+    ``codes`` is None where it has no brackets: it is about all codes.
+    """
+
+    span: Span
+    word: Span
+    line: int
+    codes: tuple[Span, ...] | None
+
+    def covers(self, code: Code) -> bool:
+        """Whether it is about a code."""
+        about = self.codes is None or any(span.text == code.code for span in self.codes)
+        return about and self.word.text == WORD
+
+
+def heed(examined: Examined, proofs: bool) -> tuple[Diagnostic, ...]:
+    """The findings about a file without those that comments leave out, in the order of their places.
+
+    Comments of the file itself that cannot be meant are warned of; those that leave out nothing only if all was looked
+    for: there is a theory, and with ``proofs`` all its situations were taken into account.
+    """
+    comments = [comment for source in examined.sources for comment in ignores(source)]
+    at: dict[tuple[int, int], list[Ignore]] = {}
+    for comment in comments:
+        at.setdefault((id(comment.span.source), comment.line), []).append(comment)
+    kept, used = [], dict[Ignore, set[str]]()
+    for finding in examined.findings:
+        covering = [c for c in at.get((id(finding.span.source), finding.span.line), ()) if c.covers(finding.code)]
+        for comment in covering:
+            used.setdefault(comment, set()).add(finding.code.code)
+        kept += [] if covering else [finding]
+    complete = proofs and examined.theory is not None
+    for comment in comments:
+        if comment.span.source is examined.sources[0]:
+            kept += _misspelt(comment)
+            kept += _idle(comment, used.get(comment, set())) if complete else ()
+    return tuple(sorted(kept, key=by_place(examined.sources)))
+
+
+def ignores(source: Source) -> Iterator[Ignore]:
+    """The comments of a source, in its order; a ``#`` in a string begins none."""
+    for part in TEXT_OR_COMMENT.finditer(source.text):
+        found = DIRECTIVE.search(source.text, part.start(), part.end()) if part["comment"] else None
+        if found is not None and (found["word"] == WORD or did_you_mean(found["word"], [WORD])):
+            span, word = Span(source, *found.span()), Span(source, *found.span("word"))
+            yield Ignore(span, word, _covered(source, span.line), _codes(source, found))
+
+
+def _covered(source: Source, line: int) -> int:
+    """The line itself if anything stands before the comment, otherwise the next one that is no comment."""
+    last = len(source.line_starts)
+    while line < last and source.line(line).lstrip().startswith("#"):
+        line += 1
+    return line
+
+
+def _codes(source: Source, found: re.Match[str]) -> tuple[Span, ...] | None:
+    if found["codes"] is None:
+        return None
+    start = found.start("codes")
+    words = re.finditer(r"[^\s,]+", found["codes"])
+    return tuple(Span(source, start + word.start(), start + word.end()) for word in words)
+
+
+def _misspelt(comment: Ignore) -> Iterator[Diagnostic]:
+    if comment.word.text != WORD:
+        message = f"there is no comment `golc: {comment.word.text}`"
+        yield _warning(message, comment.word, f"did you mean `{WORD}`?")
+    elif comment.codes == ():
+        yield _warning("there is no code in the brackets", comment.span, "without brackets it is about all codes")
+    for code in comment.codes or ():
+        if code.text not in CODES:
+            yield _warning(f"there is no code `{code.text}`", code, did_you_mean(code.text, CODES))
+
+
+def _idle(comment: Ignore, covered: set[str]) -> Iterator[Diagnostic]:
+    if comment.word.text != WORD:
+        return
+    if comment.codes is None and not covered:
+        yield _warning("there is no finding to leave out here", comment.span, "remove the comment")
+    for code in comment.codes or ():
+        if code.text in CODES and code.text not in covered:
+            yield _warning(f"there is no finding {code.text} to leave out here", code, "remove the code")
+
+
+def _warning(message: str, span: Span, help_: str | None) -> Diagnostic:
+    return Diagnostic(Code.IDLE_IGNORE, message, span, Severity.WARNING, help=help_)
