@@ -186,7 +186,7 @@ EXAMPLES = sorted((Path(__file__).parents[2] / "examples").glob("*/*.gl"))
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_the_scenarios_of_the_examples_go_as_they_expect(path: Path) -> None:
     theory = load(path)
-    assert theory.scenarios
+    assert theory.scenarios or not theory.procedures  # a file that others import has none
     assert [played.failure for played in (play(theory, each) for each in theory.scenarios.values())] == [None] * len(
         theory.scenarios
     )
