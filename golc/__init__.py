@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from golc.loading import examine, load
     from golc.planning.limits import Limits
     from golc.planning.planner import Executable, Planning, executable
-    from golc.planning.plans import Outcome, Plan
+    from golc.planning.plans import Case, Outcome, Plan
     from golc.rendering import render
     from golc.situation.dynamics import Dynamics
     from golc.theory.statements import Strategy
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 __all__ = [
     "BasicActionTheory",
+    "Case",
     "DeviceError",
     "Diagnostic",
     "Dynamics",
@@ -51,7 +52,7 @@ _ROOMS = {
     "golc.loading": ("examine", "load"),
     "golc.planning.limits": ("Limits",),
     "golc.planning.planner": ("Executable", "Planning", "executable"),
-    "golc.planning.plans": ("Outcome", "Plan"),
+    "golc.planning.plans": ("Case", "Outcome", "Plan"),
     "golc.rendering": ("render",),
     "golc.situation.dynamics": ("Dynamics",),
     "golc.theory.statements": ("Strategy",),

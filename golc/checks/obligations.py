@@ -5,7 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Span
-from golc.proofs.questions import Prover, Question, Undecided, Witness
+from golc.proofs.prover import Prover
+from golc.proofs.questions import Question, Undecided, Witness
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import show_call
 

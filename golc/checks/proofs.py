@@ -8,7 +8,7 @@ from golc.checks.effects import check_effects
 from golc.checks.flow import Flow
 from golc.checks.obligations import Obligations
 from golc.diagnostics import Diagnostic, Findings
-from golc.proofs.questions import Prover
+from golc.proofs.prover import Prover
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 

@@ -188,14 +188,15 @@ class Simulation:
     def finish(self, steps: int, options: LineOptions) -> list[str]:
         """Let time pass until the program has ended; how the brick stands then.
 
-        Raises MachineError if the program cannot be executed, LimitError if it has not ended after so many steps.
+        Raises MachineError if the program cannot be executed, LimitError if it has not ended after so many steps: op
+        codes, or, where it waits, looks at the surroundings.
         """
         from golc.diagnostics import LimitError
 
         line, brick = self._build(dataclasses.replace(options, sleep=None))
         machine, now = brick.machine, 0.0
         while machine.processor.running:
-            if machine.steps > steps:
+            if max(machine.steps, machine.looks) > steps:
                 raise LimitError(f"{'; '.join(_running(machine))}: the program has not ended after {steps} steps")
             now += SLICE
             _advance(line, brick, now)

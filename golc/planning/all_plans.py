@@ -48,7 +48,7 @@ def enumerate_plans(
 def _next(budget: Budget, pair: Pair, prefix: _Prefix, successors: Iterator[Successor]) -> tuple[Pair, _Prefix] | None:
     """The next pair to enter from an open one, with the actions that lead there; none when all have been."""
     for label, residual, state in successors:
-        longer = prefix.extended(label) if isinstance(label, Act | Expect) else prefix
+        longer = prefix.extended(label) if isinstance(label, (Act, Expect)) else prefix
         if budget.allows(longer.length) and (residual, state) not in longer.seen:
             return (residual, state), longer
     return None

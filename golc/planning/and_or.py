@@ -18,6 +18,7 @@ from collections.abc import Callable, Hashable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import Generic, NamedTuple, Protocol, TypeVar
 
+from golc.diagnostics import LimitError
 from golc.planning.limits import Budget
 from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Act, Foreseen
@@ -113,14 +114,27 @@ class _Open(Generic[P]):
 
 
 def first(
-    problem: Problem[P], start: P, budget: Budget, place: Callable[[P], Hashable] = lambda pair: pair
-) -> Solved[P] | Stuck[P] | None:
-    """The first plan with at least one step that ends in every outcome, options in their order; otherwise why there is
-    none (nothing, if every way leads back to itself or is cut off by the bound on steps).
+    problem: Problem[P],
+    start: P,
+    budget: Budget,
+    tell: Callable[[Stuck[P]], None] = lambda stuck: None,
+    place: Callable[[P], Hashable] = lambda pair: pair,
+) -> Solved[P] | None:
+    """The first plan with at least one step that ends in every outcome, options in their order; none if there is none.
 
+    ``tell`` hears why there is none, unless every way leads back to itself or is cut off by the bound on steps.
     ``place``: what must not be met again on a way. Raises ``LimitError`` at a limit.
     """
-    return _Search(problem, budget, place).run(start)
+    search = _Search(problem, budget, place)
+    try:
+        found = search.run(start)
+    except LimitError:
+        if (stuck := search.stuck()) is not None:
+            tell(stuck)
+        raise
+    if isinstance(found, Stuck):
+        tell(found)
+    return found if isinstance(found, Solved) else None
 
 
 class _Search(Generic[P]):
@@ -153,6 +167,15 @@ class _Search(Generic[P]):
                 self._way[-1].ways.append(verdict)
             else:
                 self._way[-1].fail(low, verdict)
+
+    def stuck(self) -> Stuck[P] | None:
+        """Why there is no plan as far as is known: as if nothing but the current way were left."""
+        stuck = None
+        for open_ in reversed(self._way):
+            if stuck is not None and open_.option is not None:
+                open_.fail(math.inf, stuck)
+            stuck = open_.stuck
+        return stuck
 
     def _enter(self, pair: P, actions: int, quiet: int) -> None:
         self._budget.spend()

@@ -10,7 +10,7 @@ from golc.planning.and_or import Option, P, Problem, Solved, Stuck
 from golc.planning.dead_end import DeadEnd
 from golc.planning.ground_actions import GroundActions
 from golc.planning.limits import Budget
-from golc.planning.plans import answers, sensed
+from golc.planning.plans import answers, sensed, told
 from golc.program.ahead import Ahead
 from golc.program.labels import Act, Expect
 from golc.program.nodes import Node
@@ -53,7 +53,7 @@ class Goal(Problem[Pair]):
         return self._holds(pair[1], ())
 
     def options(self, pair: Pair) -> Iterator[Option[Pair]]:
-        """The actions that are possible, in their order."""
+        """What can be done, in the order of the ground actions."""
         for label, outcomes in self._actions.forks(pair[1]):
             yield Option(label, tuple([(outcome.results, (pair[0], outcome.state)) for outcome in outcomes]))
 
@@ -87,18 +87,27 @@ def find(
     def cost(pair: Pair, act: Act) -> Number:
         return dynamics.cost(pair[1], act.action, act.args)
 
-    if strategy is Strategy.CHEAPEST and budget.limits.steps is not None:
-        counted = _Counted(problem, budget)
-        dear = worst_case.find(counted, (start, 0), budget, lambda pair, act: cost(pair[0], act), _always, _uncounted)
-        return _way(dear, _uncounted, dynamics, dead_end)
+    def tell(stuck: Stuck[Pair]) -> None:
+        _tell(dead_end, stuck, dynamics, lambda pair: pair)
+
+    def tell_counted(stuck: Stuck[Counted]) -> None:
+        _tell(dead_end, stuck, dynamics, _uncounted)
+
+    found: Solved[Pair] | None
     match strategy:
         case Strategy.FIRST:
-            found = and_or.first(problem, start, budget)
+            found = and_or.first(problem, start, budget, tell)
         case Strategy.SHORTEST:
-            found = worst_case.find(problem, start, budget, _one, lambda weight: budget.allows(int(weight)))
+            found = worst_case.find(problem, start, budget, _one, lambda weight: budget.allows(int(weight)), tell)
+        case Strategy.CHEAPEST if budget.limits.steps is None:
+            found = worst_case.find(problem, start, budget, cost, _always, tell)
         case Strategy.CHEAPEST:
-            found = worst_case.find(problem, start, budget, cost, _always)
-    return _way(found, lambda pair: pair, dynamics, dead_end)
+            counted = _Counted(problem, budget)
+            way = worst_case.find(
+                counted, (start, 0), budget, lambda pair, act: cost(pair[0], act), _always, tell_counted, _uncounted
+            )
+            return _path(way, dynamics, _uncounted)
+    return _path(found, dynamics, lambda pair: pair)
 
 
 def _uncounted(pair: Counted) -> Pair:
@@ -113,18 +122,11 @@ def _always(weight: Number) -> bool:
     return True
 
 
-def _way(
-    found: Solved[P] | Stuck[P] | None, pair_of: Callable[[P], Pair], dynamics: Dynamics, dead_end: DeadEnd
-) -> Path | None:
-    """What was found as a path; if nothing was, the dead end is told why."""
-    if isinstance(found, Solved):
-        return joined(found, lambda solved: _run(solved, pair_of, dynamics))
-    if found is not None:
-        _tell(dead_end, found, pair_of, dynamics)
-    return None
+def _path(found: Solved[P] | None, dynamics: Dynamics, pair_of: Callable[[P], Pair]) -> Path | None:
+    return None if found is None else joined(found, lambda solved: _run(solved, dynamics, pair_of))
 
 
-def _run(solved: Solved[P], pair_of: Callable[[P], Pair], dynamics: Dynamics) -> Run[Solved[P]]:
+def _run(solved: Solved[P], dynamics: Dynamics, pair_of: Callable[[P], Pair]) -> Run[Solved[P]]:
     """A plan up to the first option with several outcomes."""
     node, state = pair_of(solved.pair)
     programs, labels, states = [node], [], [state]
@@ -143,7 +145,8 @@ def _run(solved: Solved[P], pair_of: Callable[[P], Pair], dynamics: Dynamics) ->
     return Path(tuple(programs), tuple(labels), tuple(states)), ()
 
 
-def _tell(dead_end: DeadEnd, stuck: Stuck[P], pair_of: Callable[[P], Pair], dynamics: Dynamics) -> None:
+def _tell(dead_end: DeadEnd, stuck: Stuck[P], dynamics: Dynamics, pair_of: Callable[[P], Pair]) -> None:
+    """Remember the way to where nothing leads on."""
     dead_end.actions = stuck.actions
     way = []
     while stuck.then is not None:
@@ -159,5 +162,5 @@ def _answered(stuck: Stuck[P], after: State, dynamics: Dynamics) -> str:
     if not stuck.results:
         return str(stuck.label)
     assert isinstance(stuck.label, Act)
-    names = sensed(dynamics, stuck.label, after)
-    return f"{stuck.label} ({answers(names, stuck.results)})"
+    names, results = sensed(dynamics, stuck.label, after), told(dynamics, stuck.label, stuck.results)
+    return f"{stuck.label} ({answers(names, results)})"

@@ -111,12 +111,15 @@ def _steps(count: int | None) -> str:
 class Planning:
     """A search for the plans of a program from the initial state; iterate over it, then read its ``outcome``.
 
-    One plan, by the ``strategy``, or all of them in program order.
+    One plan, by the ``strategy``, or all of them in program order; ``ValueError`` for all plans of a domain whose plans
+    depend on what is sensed, unless they are conformant.
     """
 
     def __init__(
         self, executable: Executable, limits: Limits, all_plans: bool = False, strategy: Strategy = Strategy.FIRST
     ) -> None:
+        if all_plans and executable.ahead.senses:
+            raise ValueError("plans that branch by what is sensed are not listed")
         self.outcome = Outcome()
         self._executable = executable
         self._budget = Budget(limits)

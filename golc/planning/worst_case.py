@@ -16,6 +16,7 @@ from heapq import heappop, heappush
 from itertools import count
 from typing import Generic, TypeAlias
 
+from golc.diagnostics import LimitError
 from golc.planning.and_or import Option, P, Problem, Solved, Stuck, first
 from golc.planning.limits import Budget
 from golc.program.circles import CIRCLES, runs_in_circles
@@ -64,15 +65,23 @@ def find(
     budget: Budget,
     weigh: Weigh[P],
     allows: Callable[[Number], bool],
+    tell: Callable[[Stuck[P]], None] = lambda stuck: None,
     place: Callable[[P], Hashable] = lambda pair: pair,
-) -> Solved[P] | Stuck[P] | None:
-    """The first of the lightest plans with at least one step; otherwise the longest way to where there is none.
+) -> Solved[P] | None:
+    """The first of the lightest plans with at least one step; none if there is none.
 
-    ``allows``: whether a branch may weigh so much; ``place``: see ``and_or.first``. Raises ``LimitError`` at a limit.
+    ``tell`` hears of the longest way to where there is no plan. ``allows``: whether a branch may weigh so much;
+    ``place``: see ``and_or.first``. Raises ``LimitError`` at a limit.
     """
     graph = _Graph(problem, start, budget, weigh, allows)
-    graph.explore()
-    return first(graph, start, Budget(), place) if graph.is_solved else graph.stuck()
+    try:
+        value = graph.explore()
+    except LimitError:
+        tell(graph.stuck())
+        raise
+    if value is None:
+        tell(graph.stuck())
+    return first(graph, start, Budget(), place=place) if value is not None and allows(value) else None
 
 
 _Step: TypeAlias = tuple[_Vertex[P], Foreseen, tuple[Value, ...]]
@@ -94,18 +103,14 @@ class _Graph(Generic[P]):
         self._number = count()
         self._heap: list[tuple[Number, int, _Vertex[P]]] = [(0, next(self._number), self._root)]
 
-    def explore(self) -> None:
-        """Expand what can be a part of the best plan."""
+    def explore(self) -> Number | None:
+        """Expand what can be a part of the best plan; what it weighs, none if there is none."""
         while self._heap and self._heap[0][0] <= self._root.value:
             _, _, vertex = heappop(self._heap)
             if vertex.edges is None:
                 self._expand(vertex)
                 self._improve(vertex)
-
-    @property
-    def is_solved(self) -> bool:
-        """Whether there is a plan."""
-        return self._root.value < math.inf
+        return None if isinstance(self._root.value, float) else self._root.value
 
     def stuck(self) -> Stuck[P]:
         """The longest of the shortest ways, through pairs that have no plan, to one where nothing can be done; if there

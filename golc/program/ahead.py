@@ -13,6 +13,7 @@ from golc.program.prunes import Prunes
 from golc.program.step import Machine
 from golc.situation.dynamics import Dynamics, Outcome
 from golc.situation.worlds import State
+from golc.theory.types import Value
 
 
 class Successor(NamedTuple):
@@ -54,7 +55,7 @@ class Ahead(Machine):
         super().__init__(dynamics, program)
         self.senses = may_branch(dynamics) and not conformant
         self._events = Events(dynamics)
-        self._prunes = Prunes(dynamics)
+        self._prunes = Prunes(dynamics) if dynamics.theory.prunes else None
 
     def can_wait(self, state: State) -> bool:
         """Whether an expected exogenous action is possible."""
@@ -62,24 +63,21 @@ class Ahead(Machine):
 
     def transitions(self, node: Node, state: State) -> Iterator[Transition]:
         """The transitions in program order; a wait is one only where the program can do nothing else."""
-        waits: list[Transition] = []
-        acts = False
-        for transition in super().transitions(node, state):
-            if isinstance(transition.label, Wait):
-                waits.append(transition)
-            else:
-                acts = True
-                yield transition
-        if not acts:
-            yield from waits
+        transitions = super().transitions(node, state)
+        return self._waits_last(transitions) if self._events else transitions
 
     def successors(self, node: Node, state: State) -> Iterator[Successor]:
         """The steps in program order that lead to no bad situation, each computed when it is asked for."""
         for label, residual in self.transitions(node, state):
-            if isinstance(label, Act | Wait):
-                step = self._step(label, residual, state)
-                if step is not None:
-                    yield step
+            if isinstance(label, Act):
+                after = self.dynamics.progress(state, label.action, label.args)
+                if self._prunes is None or not self._is_pruned(state, label, after):
+                    yield Successor(label, residual, after)
+            elif isinstance(label, Wait):
+                event = self._expected(label, state)
+                after = self.dynamics.progress(state, event.action, event.args)
+                if not self._is_pruned(state, event, after):
+                    yield Successor(event, residual, after)
             else:
                 yield Successor(label, residual, state)
 
@@ -88,7 +86,7 @@ class Ahead(Machine):
         for successor in self.successors(node, state):
             label, residual, after = successor
             outcomes = self.outcomes(successor)
-            if len(outcomes) == 1 or not self._prunes or not self._prune_any(state, label, outcomes):
+            if len(outcomes) == 1 or not any(self._is_pruned(state, label, o.state, o.results) for o in outcomes):
                 yield Fork(label, residual, after, outcomes)
 
     def outcomes(self, successor: Successor) -> list[Outcome]:
@@ -98,31 +96,32 @@ class Ahead(Machine):
             return self.dynamics.outcomes(after, label.action, label.args)
         return [Outcome((), after)]
 
-    def _prune_any(self, before: State, label: Foreseen, outcomes: list[Outcome]) -> bool:
-        """Whether one of several outcomes is a bad situation."""
-        assert isinstance(label, Act)
-        for outcome in outcomes:
-            prune = self._prunes.hit(before, label.action, label.args, outcome.state)
-            if prune is not None:
-                self.blame_at(label.span, "pruned", prune, label, outcome.results)
-                return True
-        return False
-
-    def _step(self, label: Act | Wait, residual: Node, state: State) -> Successor | None:
-        """The successor by an action, or by the exogenous action that ends a wait; none if it is pruned."""
-        foreseen = label if isinstance(label, Act) else self._expected(label, state)
-        after = self.dynamics.progress(state, foreseen.action, foreseen.args)
-        if self._prunes:
-            prune = self._prunes.hit(state, foreseen.action, foreseen.args, after)
-            if prune is not None:
-                self.blame_at(label.span, "pruned", prune, foreseen)
-                return None
-        return Successor(foreseen, residual, after)
+    def _is_pruned(self, before: State, label: Foreseen, after: State, results: tuple[Value, ...] = ()) -> bool:
+        """Whether what has happened leads to a bad situation, which is then blamed."""
+        if self._prunes is None or not isinstance(label, Act | Expect):
+            return False
+        prune = self._prunes.hit(before, label.action, label.args, after)
+        if prune is not None:
+            self.blame_at(label.span, "pruned", prune, label, results)
+        return prune is not None
 
     def _expected(self, wait: Wait, state: State) -> Expect:
         event = self._events.first(state)
         assert event is not None, "a wait is a transition only where something is expected"
         return Expect(event.action, event.args, wait.span)
+
+    def _waits_last(self, transitions: Iterator[Transition]) -> Iterator[Transition]:
+        """What is no wait; if there is nothing, the waits."""
+        waits: list[Transition] = []
+        acts = False
+        for transition in transitions:
+            if isinstance(transition.label, Wait):
+                waits.append(transition)
+            else:
+                acts = True
+                yield transition
+        if not acts:
+            yield from waits
 
     def _try(self, node: Node, state: State) -> None:
         for _ in self.forks(node, state):

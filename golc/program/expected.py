@@ -17,12 +17,15 @@ class Event(NamedTuple):
 
 
 class Events:
-    """The exogenous actions of a theory that are declared ``expected``."""
+    """The exogenous actions of a theory that are declared ``expected``; true if there are any."""
 
     def __init__(self, dynamics: Dynamics) -> None:
         self._dynamics = dynamics
         self._actions = [action for action in dynamics.theory.actions.values() if action.expected]
         self._last: tuple[State, Event | None] | None = None
+
+    def __bool__(self) -> bool:
+        return bool(self._actions)
 
     def first(self, state: State) -> Event | None:
         """The first that is possible, in the order of declaration, then of the parameters' types; none if none is."""

@@ -112,7 +112,8 @@ class Machine:
 
     def blame(self, rule: Rule, reason: str, *details: object) -> None:
         """A rule reports why it has no transition; kept only while somebody wants to know."""
-        self.blame_at(rule.span, reason, *details)
+        if self._blamed is not None:
+            self._blamed.append(Blamed(rule.span, reason, details))
 
     def blame_at(self, span: Span, reason: str, *details: object) -> None:
         """As ``blame``, by the place."""

@@ -9,15 +9,13 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable, Iterator, Sequence
-from typing import TypeAlias, TypeVar
+from typing import TypeVar
 
+from golc.proofs.domains import Domain, Some
 from golc.proofs.symbols import MOST_CONCRETE, NotDecidedError, Range, Symbol
 from golc.theory.types import Value
 
 T = TypeVar("T")
-
-Domain: TypeAlias = Sequence[Value] | Range | None
-"""What a slot may hold: values that can be gone through, a range of integers, or anything (none: never decided)."""
 
 
 class Case:
@@ -30,6 +28,8 @@ class Case:
         self, domains: Sequence[Domain], decisions: list[tuple[int, int]], chance: random.Random | None = None
     ) -> None:
         self.cells: dict[int, Value] = {}
+        self.whole = True
+        """Whether every value of each slot that was read has its turn."""
         self.decisions = decisions
         """What was decided so far, in order: which way, of how many."""
         self.guesses = 0
@@ -58,8 +58,9 @@ class Case:
         if slot not in self.cells:
             domain = self._domains[slot]
             match domain:
-                case None:
-                    raise NotDecidedError("a value is asked for that cannot be enumerated")
+                case Some(values=values):
+                    self.whole = False
+                    self.cells[slot] = values[self.choose(len(values))]
                 case Range(low=low, high=high):
                     self._ranges[slot] = Range(low, high)
                     self.cells[slot] = Symbol.of(self, slot)

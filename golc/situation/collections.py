@@ -7,20 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from golc.situation import guards
 from golc.theory.order import elements, sort_key
-from golc.theory.terms import Binder, Comprehension, Display, Literal, Operation, Operator, Term, Text, Variable
+from golc.theory.terms import Binder, Comprehension, Display, Literal, Term, Text, Variable
 from golc.theory.types import Collection, Optional, Value
 
 if TYPE_CHECKING:
     from golc.situation.compile import Cells, Compiler
-
-INFIX = {
-    Operator.UNION: "|",
-    Operator.DIFFERENCE: "-",
-    Operator.CONCATENATION: "+",
-    Operator.ELEMENT: "in",
-}
-GUARDED = {Operator.FIRST: guards.first, Operator.REST: guards.rest, Operator.INDEX: guards.index}
-OPERATORS = {*INFIX, *GUARDED, Operator.LENGTH, Operator.REMOVAL}
 
 
 def made(compiler: Compiler, term: Display | Comprehension | Text, cells: Cells, depth: int) -> str:
@@ -30,10 +21,11 @@ def made(compiler: Compiler, term: Display | Comprehension | Text, cells: Cells,
         return compiler.constant(value)
     match term:
         case Text():
-            return f"''.join(({''.join(f'{_text(compiler, part, cells, depth)}, ' for part in term.parts)}))"
+            texts = [f"{_text(compiler, part, cells, depth)}, " for part in term.parts]
+            return f"''.join(({''.join(texts)}))"
         case Display():
-            found = f"({''.join(f'{compiler.expression(part, cells, depth)}, ' for part in term.elements)})"
-            return f"frozenset({found})" if _is_set(term) else found
+            texts = [f"{compiler.expression(part, cells, depth)}, " for part in term.elements]
+            return f"frozenset(({''.join(texts)}))" if _is_set(term) else f"({''.join(texts)})"
         case Comprehension():
             inner, clauses = compiler.loops(term.binders, term.where, cells, depth)
             found = f"[{compiler.expression(term.element, inner, depth)} {clauses}]"
@@ -48,27 +40,6 @@ def _text(compiler: Compiler, part: str | Term, cells: Cells, depth: int) -> str
     if isinstance(part, str):
         return repr(part)
     return f"{compiler.bind('text', guards.text(part.type))}({compiler.expression(part, cells, depth)})"
-
-
-def operation(compiler: Compiler, term: Operation, cells: Cells, depth: int) -> str:
-    """An expression for one of ``OPERATORS``."""
-    op, args = term.op, term.args
-    if op is Operator.ELEMENT:
-        known, whole = known_value(args[1], cells)
-        if known and whole is not None:
-            within = compiler.bind("set", frozenset(whole))
-            return f"({compiler.expression(args[0], cells, depth)} in {within})"
-        return f"({compiler.expression(args[0], cells, depth)} in {compiler.some(args[1], cells, depth)})"
-    texts = [compiler.some(arg, cells, depth) for arg in args]
-    if op in INFIX:
-        return f"({texts[0]} {INFIX[op]} {texts[1]})"
-    match op:
-        case Operator.LENGTH:
-            return f"len({texts[0]})"
-        case Operator.REMOVAL:
-            return f"{compiler.bind('removal', guards.removal)}({', '.join(texts)})"
-        case _:
-            return f"{compiler.bind(op.name.lower(), GUARDED[op](term))}({', '.join(texts)})"
 
 
 def run_through(compiler: Compiler, binder: Binder, cells: Cells, depth: int) -> str:

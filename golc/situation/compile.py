@@ -16,6 +16,7 @@ from golc.situation import collections, guards
 from golc.situation.collections import known_value, listed
 from golc.situation.happened import before
 from golc.situation.layout import Layout, Place
+from golc.situation.operators import in_one_form, operation
 from golc.situation.worlds import ASK
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
@@ -30,7 +31,6 @@ from golc.theory.terms import (
     Literal,
     Membership,
     Operation,
-    Operator,
     PossTerm,
     Quantified,
     StaticTerm,
@@ -40,7 +40,7 @@ from golc.theory.terms import (
     subterms,
 )
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Static
-from golc.theory.types import Interval, Type, Value, number
+from golc.theory.types import Interval, Type, Value
 
 FORMULA = "a formula"
 """What a formula is called where it is `none`."""
@@ -50,26 +50,6 @@ DEEPEST = 24
 
 LARGEST_UNROLLED = 200
 """A quantifier is written out if its bindings times the subterms of its body are no more than this."""
-
-INFIX = {
-    Operator.ADD: "+",
-    Operator.SUBTRACT: "-",
-    Operator.MULTIPLY: "*",
-    Operator.EQUAL: "==",
-    Operator.DIFFERENT: "!=",
-    Operator.LESS: "<",
-    Operator.LESS_EQUAL: "<=",
-    Operator.GREATER: ">",
-    Operator.GREATER_EQUAL: ">=",
-    Operator.IFF: "==",
-    Operator.AND: "and",
-    Operator.OR: "or",
-}
-CALLS = {Operator.ABSOLUTE: "abs", Operator.MINIMUM: "min", Operator.MAXIMUM: "max"}
-ORDERED = {Operator.LESS, Operator.LESS_EQUAL, Operator.GREATER, Operator.GREATER_EQUAL}
-EXACT = {Operator.EQUAL, Operator.DIFFERENT}
-"""Operators whose operands may be ``none``."""
-LOGICAL = {Operator.IFF, Operator.AND, Operator.OR, Operator.NOT, Operator.IMPLIES}
 
 
 class Cell(NamedTuple):
@@ -170,10 +150,8 @@ class Compiler:
                 return self._membership(self.expression(element, cells, depth + 1), element.type, within)
             case Quantified():
                 return self._quantified(term, cells, depth + 1)
-            case Operation(op=op) if op in collections.OPERATORS:
-                return collections.operation(self, term, cells, depth + 1)
             case Operation():
-                return self._operation(term, cells, depth + 1)
+                return operation(self, term, cells, depth + 1)
             case Display() | Comprehension() | Text():
                 return collections.made(self, term, cells, depth + 1)
             case Epistemic(kind=kind, body=body):
@@ -307,45 +285,6 @@ class Compiler:
         listed = within.finite and not isinstance(strip_optional(within), Interval)  # which may be too long to list
         return f"({element} in {self.bind('set', frozenset(within.values) if listed else within)})"
 
-    def _operation(self, term: Operation, cells: Cells, depth: int) -> str:
-        op, args = term.op, term.args
-        if op in ORDERED and term.order is not None:
-            order = self.bind("order", {value: index for index, value in enumerate(term.order)})
-            texts = [f"{order}[{self.some(arg, cells, depth)}]" for arg in args]
-        elif op in EXACT:
-            texts = [self.expression(arg, cells, depth) for arg in args]
-        elif op in LOGICAL:
-            texts = [self.formula(arg, cells, depth) for arg in args]
-        elif op is Operator.CONDITIONAL:
-            then, otherwise = self.expression(args[0], cells, depth), self.expression(args[2], cells, depth)
-            return f"({then} if {self.formula(args[1], cells, depth)} else {otherwise})"
-        else:
-            texts = [self.some(arg, cells, depth) for arg in args]
-        match op:
-            case Operator.NOT:
-                return f"(not {texts[0]})"
-            case Operator.IMPLIES:
-                return f"(not {texts[0]} or {texts[1]})"
-            case Operator.NEGATE:
-                return f"(-{texts[0]})"
-            case Operator.DIVIDE | Operator.MODULO:
-                return self._quotient(term, texts, cells)
-            case _ if op in CALLS:
-                return f"{CALLS[op]}({', '.join(texts)})"
-            case _:
-                return self._number(f"({f' {INFIX[op]} '.join(texts)})", term)
-
-    def _number(self, text: str, term: Term) -> str:
-        """A number in its only form, which operations on reals do not always give."""
-        return f"{self.bind('number', number)}({text})" if "real" in term.type.kinds else text
-
-    def _quotient(self, term: Operation, texts: list[str], cells: Cells) -> str:
-        known, value = known_value(term.args[1], cells)
-        divisor = texts[1]
-        if not (known and value):
-            divisor = f"{self.bind('divisor', guards.divisor(term))}({divisor})"
-        return self._number(f"({texts[0]} {term.op.value} {divisor})", term)
-
     def some(self, term: Term, cells: Cells, depth: int, what: str = "an operand") -> str:
         """An expression for a term that fails if its value is ``none``; ``what`` says what the term is."""
         text = self.expression(term, cells, depth)
@@ -375,7 +314,7 @@ class Compiler:
             case "count":
                 return f"sum(1 {clauses} {'if' if term.where is None else 'and'} {body})"
             case "sum":
-                return self._number(f"sum({body} {clauses})", term)
+                return in_one_form(self, f"sum({body} {clauses})", term)
             case _:
                 return f"{self.bind('extremum', guards.extremum(term))}([{body} {clauses}])"
 

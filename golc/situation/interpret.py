@@ -6,11 +6,14 @@ blocked, which values a condition had) comes from here, too.
 
 from __future__ import annotations
 
+from typing import cast
+
+from golc.situation.happened import Happened, before
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import ASK, Readable
 from golc.theory import errors
 from golc.theory.evaluate import Env, Evaluator
-from golc.theory.terms import Choice, Epistemic, FluentTerm, PossTerm
+from golc.theory.terms import Before, Choice, Epistemic, FluentTerm, PossTerm
 from golc.theory.theory import Action, BasicActionTheory, Definition, Effect, Static
 from golc.theory.types import Value, show_call
 
@@ -41,6 +44,10 @@ class Interpreter(Evaluator[Readable]):
     def epistemic(self, term: Epistemic, situation: Readable, env: Env) -> bool:
         """What the agent knows in the state that a world belongs to."""
         return ASK[term.kind](lambda world: self.evaluate(term.body, world, env), situation)
+
+    def before(self, term: Before, situation: Readable, env: Env) -> Value:
+        """What a term was known to be before the action that led to a situation, which is a ``Happened``."""
+        return before(lambda world: self.evaluate(term.body, world, env), cast(Happened, situation))
 
     def possible(self, action: Action, state: Readable, args: Env) -> bool:
         """Whether the action's preconditions hold."""

@@ -7,8 +7,10 @@ they are.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from functools import partial
 from typing import Any, TypeAlias
 
 from golc.diagnostics import NOWHERE
@@ -93,7 +95,7 @@ class Knowing:
                 return certain(state, env)
             found: Iterator[Env] = iter((env,))
             for step in steps:
-                found = (longer for shorter in found for longer in step(state, shorter))
+                found = itertools.chain.from_iterable(map(partial(step, state), found))
             return found if holds is None else (each for each in found if holds(state, each))
 
         return environments

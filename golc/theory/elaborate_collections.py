@@ -42,12 +42,20 @@ def display(context: Context, kind: CollectionKind, elements: list[Term], hint: 
 
 
 def comprehension(
-    kind: CollectionKind, binders: tuple[Binder, ...], where: Term | None, element: Term, span: Span
+    kind: CollectionKind,
+    binders: tuple[Binder, ...],
+    where: Term | None,
+    element: Term,
+    hint: Type | None,
+    span: Span,
 ) -> Term:
-    """``{e for … where φ}`` or ``[…]``."""
+    """``{e for … where φ}`` or ``[…]``; of the type that is needed if e certainly fits there."""
     if BROKEN in [element.type, *[binder.variable.type for binder in binders]]:
         return broken(span)
-    return Comprehension(binders, where, element, type=Collection(kind, element.type), span=span)
+    needed = _needed(kind, hint)
+    sure = needed is not None and _is_certain(element, needed.element)
+    type_ = needed if needed is not None and sure else Collection(kind, element.type)
+    return Comprehension(binders, where, element, type=type_, span=span)
 
 
 def _needed(kind: CollectionKind, hint: Type | None) -> Collection | None:

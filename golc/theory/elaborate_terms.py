@@ -357,7 +357,7 @@ def _comprehension(context: Context, scope: Scope, node: tree.Comprehension, hin
     inner, binders = bind(context, scope, node.binders)
     where = None if node.where is None else formula(context, inner, node.where, "`where`")
     element = term(context, inner, node.element, of_elements(hint))
-    return comprehension(node.kind, binders, where, element, node.span)
+    return comprehension(node.kind, binders, where, element, hint, node.span)
 
 
 def _text(context: Context, scope: Scope, node: tree.Message) -> Term:

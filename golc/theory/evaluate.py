@@ -56,8 +56,6 @@ class Evaluator(Generic[S]):
     """How many more terms it evaluates."""
     depth = 0
     """How many calls of static functions are open."""
-    before: S | None = None
-    """The situation before the last action, for ``before(e)``."""
 
     def static(self, name: str) -> Static:
         """A static function."""
@@ -78,6 +76,10 @@ class Evaluator(Generic[S]):
     def epistemic(self, term: Epistemic, situation: S, env: Env) -> bool:
         """What the agent knows; here, that the world is as the situation says."""
         return term.kind == "known" or self.holds(term.body, situation, env)
+
+    def before(self, term: Before, situation: S, env: Env) -> Value:
+        """What a term was before the last action."""
+        raise NotImplementedError
 
     def exhausted(self, term: Term) -> Exception:
         """What to raise when there are no more steps."""
@@ -139,10 +141,8 @@ class Evaluator(Generic[S]):
                 return self._text(term, situation, env)
             case Epistemic():
                 return self.epistemic(term, situation, env)
-            case Before(body=body):
-                if self.before is None:
-                    raise AssertionError(term)
-                return self.evaluate(body, self.before, env)
+            case Before():
+                return self.before(term, situation, env)
 
     def arguments(
         self, what: str, parameters: tuple[Parameter, ...], args: tuple[Term, ...], situation: S, env: Env

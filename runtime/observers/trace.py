@@ -31,6 +31,7 @@ from golc.runtime.loop.happenings import (
 from golc.runtime.observers.reasons import Reasons, one_line
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
+from golc.theory.order import spelt
 from golc.theory.types import Value, show, show_call
 
 WHAT, WHO = 30, 12
@@ -149,7 +150,8 @@ class Trace:
         changes = self._changes(done.before, done.after)
         if done.duration < INSTANT and not changes and not done.results and self._verbosity < 1:
             return
-        answer = f"answered {', '.join(map(show, done.results))}" if done.results else ""
+        types = [term.type for term in self._dynamics.theory.actions[done.action].senses]
+        answer = f"answered {', '.join(map(show, map(spelt, done.results, types)))}" if done.results else ""
         tick = f"  {self._sign('✓', 'ok')} {done.duration:.2f} s"
         yield self._row(done.time, GREEN, tick, rest="; ".join(part for part in (answer, changes) if part))
         for surprise in done.surprises:

@@ -15,6 +15,9 @@ class Unit(Enum):
     SECONDS = "s"
     RATE = "/s"
     FACTOR = "×"
+    BYTES = "bytes"
+    OP_CODES = "op codes"
+    SIMULATED = "simulated s"
 
     def scaled(self, value: float, slower: float) -> float:
         """What it would be on the machine of the aims, given how many times slower this one is."""
@@ -23,7 +26,7 @@ class Unit(Enum):
                 return value / slower
             case Unit.RATE:
                 return value * slower
-            case Unit.FACTOR:
+            case _:
                 return value
 
     def ratio(self, value: float, aim: float) -> float:
@@ -36,6 +39,8 @@ class Unit(Enum):
             return f"{value:,.0f} /s"
         if self is Unit.FACTOR:
             return f"{value:.2f} ×"
+        if self in (Unit.BYTES, Unit.OP_CODES):
+            return f"{value:,.0f} {self.value}"
         return f"{value:.3f} s" if value >= 0.01 else f"{value * 1e6:,.1f} µs"
 
 

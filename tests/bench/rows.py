@@ -5,7 +5,7 @@ from __future__ import annotations
 import statistics
 from collections.abc import Iterator
 
-from tests.bench import knowledge, machine, online, programs, robots, startup
+from tests.bench import classic, knowledge, machine, online, programs, robots, startup
 from tests.bench.measure import Row, seconds
 
 
@@ -16,6 +16,7 @@ def every_row() -> Iterator[Row]:
     yield from programs.ROWS
     yield from knowledge.ROWS
     yield from machine.ROWS
+    yield from classic.ROWS
     yield from robots.ROWS
 
 

@@ -228,3 +228,10 @@ def test_the_same_program_does_the_same(robot: MakeRobot) -> None:
     first, second = robot(text, seed=3).run(20), robot(text, seed=3).run(20)
     assert first.ears.packets == second.ears.packets
     assert first.records == second.records
+
+
+def test_op_codes_are_counted_and_nothing_else(robot: MakeRobot) -> None:
+    text = "#pragma noinit\nint a; sub s() { a += 1; } task main() { a = 5; Wait(100); s(); s(); }"
+    machine = robot(text).finish().machine
+    assert machine.steps == 6
+    assert machine.looks > 300

@@ -1,12 +1,18 @@
-"""Random theories: whatever a domain says of a brick, its program compiles with the real nqc for both firmwares."""
+"""Random theories: whatever a domain says of a brick, its program compiles with the real nqc for both firmwares.
+
+The byte code is decoded, too, and listed as nqc does it.
+"""
 
 from __future__ import annotations
 
 import random
+import subprocess
 from typing import TYPE_CHECKING
 
 import pytest
 
+from golc.bytecode.image import read_image
+from golc.bytecode.listing import listing
 from golc.nqc.toolchain import Target
 
 if TYPE_CHECKING:
@@ -61,8 +67,10 @@ def test_random_theories_differ() -> None:
 
 
 @pytest.mark.parametrize("target", list(Target))
-def test_random_theories_compile(workshop: Workshop, target: Target) -> None:
+def test_random_theories_compile_and_are_listed_as_by_nqc(workshop: Workshop, target: Target) -> None:
     for seed in range(THEORIES):
         text = theory(random.Random(seed))
-        image = workshop.compile(text, target).image
-        assert 700 < image.size < 4000, text
+        compiled = workshop.compile(text, target)
+        assert 700 < compiled.image.size < 4000, text
+        shown = subprocess.run(["nqc", "-L", compiled.path], capture_output=True, check=True).stdout
+        assert listing(read_image(compiled.path.read_bytes())) == shown.decode("latin-1"), text

@@ -35,9 +35,9 @@ class Drawn:
             yield Option(label, tuple([((number,), after) for number, after in enumerate(outcomes)]))
 
 
-def spell(found: Solved[str] | Stuck[str] | None) -> str:
+def spell(found: Solved[str] | None) -> str:
     """A plan as ``x(y!, z!)``: after x, which has two outcomes, y or z, then the end."""
-    if not isinstance(found, Solved):
+    if found is None:
         return "stuck"
     if found.option is None:
         return "!"
@@ -50,11 +50,13 @@ def first(graph: Graph, start: str = "s", steps: int | None = None) -> str:
     return spell(and_or.first(Drawn(graph), start, Budget(Limits(steps=steps))))
 
 
+def one(pair: object, act: Act) -> int:
+    return 1
+
+
 def lightest(graph: Graph, start: str = "s", steps: int | None = None) -> str:
     budget = Budget(Limits(steps=steps))
-    return spell(
-        worst_case.find(Drawn(graph), start, budget, lambda pair, act: 1, lambda weight: budget.allows(int(weight)))
-    )
+    return spell(worst_case.find(Drawn(graph), start, budget, one, lambda weight: budget.allows(int(weight))))
 
 
 def test_every_outcome_needs_a_way() -> None:
@@ -134,19 +136,34 @@ def test_a_bound_on_steps_counts_the_actions_of_each_branch() -> None:
     assert lightest({**graph, "q": [("d", "!")]}, steps=2) == "x(b!, d!)"
 
 
+def test_a_pair_that_is_near_in_one_branch_may_be_far_in_another() -> None:
+    graph = {"s": [("x", "pr")], "p": [("y", "r")], "r": [("z", "!")]}
+    assert first(graph, steps=3) == lightest(graph, steps=3) == "x(yz!, z!)"
+    assert first(graph, steps=2) == lightest(graph, steps=2) == "stuck"
+
+
 def test_why_there_is_no_plan() -> None:
     graph = {"s": [("x", "pq")], "p": [("y", "t"), ("z", "!")], "t": [("w", "u")], "u": [], "q": [("v", "r")], "r": []}
-    for found in (
-        and_or.first(Drawn(graph), "s", Budget()),
-        worst_case.find(Drawn(graph), "s", Budget(), lambda pair, act: 1, lambda weight: True),
-    ):
-        assert isinstance(found, Stuck)
-        assert found.actions == 2
-        assert (found.label, found.results) == (Act("x", (), NOWHERE), (1,))
-        assert found.then is not None
-        assert (found.then.label, found.then.results) == (Act("v", (), NOWHERE), ())
-        assert found.then.then is not None
-        assert (found.then.then.pair, found.then.then.then) == ("r", None)
+    told: list[Stuck[str]] = []
+    assert and_or.first(Drawn(graph), "s", Budget(), told.append) is None
+    assert worst_case.find(Drawn(graph), "s", Budget(), one, lambda weight: True, told.append) is None
+    assert len(told) == 2
+    for stuck in told:
+        assert stuck.actions == 2
+        assert (stuck.label, stuck.results) == (Act("x", (), NOWHERE), (1,))
+        assert stuck.then is not None
+        assert (stuck.then.label, stuck.then.results) == (Act("v", (), NOWHERE), ())
+        assert stuck.then.then is not None
+        assert (stuck.then.then.pair, stuck.then.then.then) == ("r", None)
+
+
+def test_how_far_it_came_at_a_limit() -> None:
+    graph = {"s": [("x", "p")], "p": [("y", "q"), ("z", "r")], "q": [], "r": [("z", "t")], "t": []}
+    for nodes, actions in ((3, [2]), (4, [2]), (2, [])):
+        told: list[Stuck[str]] = []
+        with pytest.raises(LimitError):
+            and_or.first(Drawn(graph), "s", Budget(Limits(nodes=nodes)), told.append)
+        assert [stuck.actions for stuck in told] == actions
 
 
 class Endless:
@@ -164,7 +181,7 @@ def test_limits_and_circles_end_a_search() -> None:
         with pytest.raises(error):
             and_or.first(Endless(), 0, Budget(Limits(nodes=nodes)))
         with pytest.raises(error):
-            worst_case.find(Endless(), 0, Budget(Limits(nodes=nodes)), lambda pair, act: 1, lambda weight: True)
+            worst_case.find(Endless(), 0, Budget(Limits(nodes=nodes)), one, lambda weight: True)
 
 
 class Ladder:
@@ -180,7 +197,7 @@ class Ladder:
 def test_long_plans_need_no_recursion() -> None:
     for found in (
         and_or.first(Ladder(), 20_000, Budget()),
-        worst_case.find(Ladder(), 20_000, Budget(), lambda pair, act: 1, lambda weight: True),
+        worst_case.find(Ladder(), 20_000, Budget(), one, lambda weight: True),
     ):
         assert isinstance(found, Solved)
         assert found.actions == 20_000
@@ -226,7 +243,7 @@ def test_a_plan_is_found_exactly_if_there_is_one(graph: Graph) -> None:
     worth = values(graph)
     for found in (
         and_or.first(Drawn(graph), "s", Budget()),
-        worst_case.find(Drawn(graph), "s", Budget(), lambda pair, act: 1, lambda weight: True),
+        worst_case.find(Drawn(graph), "s", Budget(), one, lambda weight: True),
     ):
         assert isinstance(found, Solved) == (worth["s"] < math.inf)
         if isinstance(found, Solved):
@@ -236,7 +253,7 @@ def test_a_plan_is_found_exactly_if_there_is_one(graph: Graph) -> None:
 @given(graph=GRAPHS)
 def test_the_lightest_plan_is_lightest_in_every_branch(graph: Graph) -> None:
     worth = values(graph)
-    found = worst_case.find(Drawn(graph), "s", Budget(), lambda pair, act: 1, lambda weight: True)
+    found = worst_case.find(Drawn(graph), "s", Budget(), one, lambda weight: True)
     pending = [found]
     while pending:
         part = pending.pop()
@@ -251,7 +268,7 @@ def test_a_bound_is_kept_and_hides_no_plan(graph: Graph, steps: int) -> None:
     budget = Budget(Limits(steps=steps))
     for found in (
         and_or.first(Drawn(graph), "s", budget),
-        worst_case.find(Drawn(graph), "s", budget, lambda pair, act: 1, lambda weight: budget.allows(int(weight))),
+        worst_case.find(Drawn(graph), "s", budget, one, lambda weight: budget.allows(int(weight))),
     ):
         assert isinstance(found, Solved) == (least <= steps)
         assert not isinstance(found, Solved) or weight(found) <= steps

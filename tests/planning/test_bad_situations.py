@@ -14,6 +14,7 @@ from golc.planning.limits import Limits
 from golc.planning.planner import Planning, executable
 from golc.planning.plans import Plan
 from golc.situation.dynamics import Dynamics
+from golc.situation.happened import Happened
 from golc.situation.interpret import Interpreter
 from golc.situation.layout import World
 from golc.theory.statements import Strategy
@@ -199,8 +200,8 @@ def enters_a_bad_situation(theory: BasicActionTheory, plan: Plan) -> bool:
     for act in plan.actions:
         after = dynamics.progress(state, act.action, act.args)
         for prune in theory.prunes.values():
-            interpreter.before = cast(World, state)
-            if prune.action in (None, act.action) and interpreter.holds(prune.condition, cast(World, after), act.args):
+            situation = cast(World, Happened(cast(World, after), state))
+            if prune.action in (None, act.action) and interpreter.holds(prune.condition, situation, act.args):
                 return True
         state = after
     return False

@@ -44,7 +44,9 @@ def test_the_time_is_evaluated_when_the_clock_starts(start: Start) -> None:
     assert at(program, 6).final
 
 
-@pytest.mark.parametrize(("time", "moment"), [("0.5", 0.5), ("x - 9", 0), ("1" + 400 * "0", 1e9)])
+@pytest.mark.parametrize(
+    ("time", "moment"), [("0.5", 0.5), ("len(todo) * 0.25", 0.75), ("x - 9.5", 0), ("1" + 400 * "0", 1e9)]
+)
 def test_times_have_decimals_and_bounds(start: Start, time: str, moment: float) -> None:
     program = start(f"wait {time} s").take()
     assert at(program, moment).final

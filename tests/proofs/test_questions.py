@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from golc.diagnostics import Findings, ProgramError, Source
-from golc.proofs.questions import Asked, Prover, Question, Undecided, Witness
+from golc.proofs.prover import Prover
+from golc.proofs.questions import Asked, Question, Undecided, Witness
 from golc.proofs.solver import solve
 from golc.situation.dynamics import Dynamics
 from golc.syntax.parse import parse_file

@@ -12,7 +12,9 @@ from hypothesis import strategies as st
 
 from golc.diagnostics import ProgramError, Source
 from golc.situation.dynamics import Dynamics
+from golc.situation.happened import Happened
 from golc.theory.terms import (
+    Before,
     Binder,
     Comprehension,
     DefinedTerm,
@@ -366,6 +368,22 @@ def test_a_compiled_term_has_the_value_that_its_tree_has(theory: BasicActionTheo
         outcome(lambda: dynamics.interpreter.evaluate(term, state, env)),
     )
     assert found == wanted and type(found) is type(wanted)
+
+
+@given(theories(), st.data())
+def test_a_term_about_the_situation_before_has_the_value_that_its_tree_has(
+    theory: BasicActionTheory, data: st.DataObject
+) -> None:
+    dynamics = Dynamics(theory)
+    situation: Any = Happened(random_state(data, dynamics), random_state(data, dynamics))
+    sort = data.draw(sorts())
+    now = data.draw(terms(sort, vocabulary(theory), (SMALL,)))
+    term = Display((now, Before(now, type=now.type)), type=Collection("list", now.type))
+    env = (data.draw(values_of(SMALL)),)
+    compiled = dynamics.compiler.term(term, 1)
+    assert outcome(lambda: compiled(situation, env)) == outcome(
+        lambda: dynamics.interpreter.evaluate(term, situation, env)
+    )
 
 
 @given(theories(), st.data())

@@ -87,6 +87,7 @@ def findings(text: str) -> list[tuple[str, str, str]]:
         ("light = 50", "light = 9" + 400 * "0", "2:9", "9" + 400 * "0",
          "`light` takes a number from 0 to 100, not `a large number`"),
         ('left = "A"', 'left = "D"', "4:8", '"D"', "`left` cannot be `D`"),
+        ('"A"', f"[0x{'f' * 5000}]", "4:8", f"[0x{'f' * 5000}]", "`left` cannot be `[…]`"),
         ("[0, 0]", "[0]", "6:16", "[0]", "`at` takes a point `[x, y]`, not `[…]`"),
         ("[0, 0]", "[0, '0']", "6:20", "'0'", "`at` takes a number from -100000 to 100000, not `0`"),
         ("at =", "att =", "6:1", "start", "`[robot.start]` must have `station` or `at`, and it has none"),

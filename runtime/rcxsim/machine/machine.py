@@ -41,7 +41,7 @@ OWN_PACKET, OWN_COMMUNICATION = 3, 0
 class Machine:
     """A brick with its firmware, its programs and its clock, ``now``, in microseconds.
 
-    ``steps`` counts the op codes that were executed, and the looks at the surroundings.
+    ``looks`` counts those at the surroundings.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class Machine:
         self.firmware = firmware
         self.options = options = options or Options()
         self.now = 0
-        self.steps = 0
+        self.looks = 0
         self.on = True
         self.slot = 0
         self.variables = [0] * VARIABLES
@@ -92,12 +92,10 @@ class Machine:
             if self.now >= self._look_at:
                 self._look(self._look_at)
                 self._look_at += self.options.look
-                self.steps += 1
             task = processor.ready(self.now)
             if task is None:
                 self.now = min(until, self._look_at, processor.wake())
                 continue
-            self.steps += 1
             try:
                 self.now += processor.step(task)
             except MachineError as fault:
@@ -108,6 +106,11 @@ class Machine:
     def due(self) -> int:
         """Until when to let time pass so that something happens."""
         return max(self.now, min(self._look_at, self.processor.wake())) + 1
+
+    @property
+    def steps(self) -> int:
+        """How many op codes its tasks have executed."""
+        return self.processor.steps
 
     @property
     def seconds(self) -> float:
@@ -236,6 +239,7 @@ class Machine:
                 self.display.next()
 
     def _look(self, at: int) -> None:
+        self.looks += 1
         raws = self._surroundings.sense([sensor.powered for sensor in self.inputs], at)
         for sensor, raw in zip(self.inputs, raws, strict=True):
             sensor.look(raw)

@@ -17,7 +17,7 @@ Tell = Callable[[Task, Code, str], None]
 
 
 class Processor:
-    """``prepare`` makes the instruction at a place of some code ready to be executed."""
+    """``prepare`` makes the instruction at a place of some code ready to be executed; ``steps`` counts the op codes."""
 
     def __init__(self, prepare: Callable[[Code, int], Step], tell: Tell) -> None:
         self._prepare = prepare
@@ -25,6 +25,7 @@ class Processor:
         self.tasks = [Task(number) for number in range(MOST[ChunkType.TASK])]
         self._turns = [self.tasks[number + 1 :] + self.tasks[: number + 1] for number in range(len(self.tasks))]
         self._last = len(self.tasks) - 1
+        self.steps = 0
 
     @property
     def running(self) -> bool:
@@ -58,6 +59,7 @@ class Processor:
                     return 0
                 step = code.steps[place] = self._prepare(code, place)
             run, task.place, time = step
+            self.steps += 1
             run(task)
         except MachineError as fault:
             raise fault.at(str(code), place) from None

@@ -66,7 +66,7 @@ class OnStop:
 
 
 @dataclass(frozen=True)
-class Line:
+class Cue:
     """When what is done; ``delay`` in microseconds, ``nth`` (from 1) and ``station`` None for any."""
 
     trigger: At | OnSound | OnStop
@@ -79,25 +79,25 @@ class Line:
 class People:
     """Does what a script says; the caller has the clock (microseconds) and says what the robot does."""
 
-    def __init__(self, script: Sequence[Line]) -> None:
+    def __init__(self, script: Sequence[Cue]) -> None:
         self._script = script
         self._seen = [0] * len(script)
-        self._due: list[tuple[int, int, Line, int | None]] = []
+        self._due: list[tuple[int, int, Cue, int | None]] = []
         self._order = 0
         self._starts = 0  # how often the robot has begun to move
-        for line in script:
-            if isinstance(line.trigger, At):
-                self._push(line.delay, line, None)
+        for cue in script:
+            if isinstance(cue.trigger, At):
+                self._push(cue.delay, cue, None)
 
     def heard(self, sound: int | None, station: str | None, now: int) -> None:
         """The robot has made a sound, at a station or not; None is no sound of the list."""
-        for line in self._brought_about(OnSound, station, sound):
-            self._push(now + line.delay, line, None)
+        for cue in self._brought_about(OnSound, station, sound):
+            self._push(now + cue.delay, cue, None)
 
     def stopped(self, station: str | None, at: int) -> None:
         """The robot stands from a time on, unless it is told otherwise before."""
-        for line in self._brought_about(OnStop, station):
-            self._push(at + line.delay, line, self._starts)
+        for cue in self._brought_about(OnStop, station):
+            self._push(at + cue.delay, cue, self._starts)
 
     def started(self) -> None:
         """The wheels turn: who waited until the robot had stood for a while waits in vain."""
@@ -111,22 +111,22 @@ class People:
     def take(self, now: int) -> Iterator[Deed]:
         """What is done by now, in its order."""
         while self._due and self._due[0][0] <= now:
-            _, _, line, starts = heapq.heappop(self._due)
+            _, _, cue, starts = heapq.heappop(self._due)
             if starts in (None, self._starts):
-                yield line.deed
+                yield cue.deed
 
-    def _brought_about(self, kind: type, station: str | None, sound: int | None = None) -> Iterator[Line]:
-        """The lines whose time it is when something has happened."""
-        for place, line in enumerate(self._script):
-            trigger = line.trigger
-            if not isinstance(trigger, kind) or line.station not in (None, station):
+    def _brought_about(self, kind: type, station: str | None, sound: int | None = None) -> Iterator[Cue]:
+        """The cues whose time it is when something has happened."""
+        for place, cue in enumerate(self._script):
+            trigger = cue.trigger
+            if not isinstance(trigger, kind) or cue.station not in (None, station):
                 continue
             if isinstance(trigger, OnSound) and trigger.number not in (None, sound):
                 continue
             self._seen[place] += 1
-            if line.nth in (None, self._seen[place]):
-                yield line
+            if cue.nth in (None, self._seen[place]):
+                yield cue
 
-    def _push(self, time: int, line: Line, starts: int | None) -> None:
-        heapq.heappush(self._due, (time, self._order, line, starts))
+    def _push(self, time: int, cue: Cue, starts: int | None) -> None:
+        heapq.heappush(self._due, (time, self._order, cue, starts))
         self._order += 1

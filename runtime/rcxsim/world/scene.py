@@ -8,7 +8,7 @@ from math import atan2, cos, hypot, pi
 
 from golc.runtime.rcxsim.world.floor import Floor, nearest_on_lines
 from golc.runtime.rcxsim.world.geometry import Point, Pose, nearest
-from golc.runtime.rcxsim.world.people import Line, PutAt
+from golc.runtime.rcxsim.world.people import Cue, PutAt
 from golc.runtime.rcxsim.world.robot import LightSensor, Robot
 
 
@@ -18,7 +18,7 @@ class Scene:
 
     floor: Floor
     robot: Robot
-    script: tuple[Line, ...] = ()
+    script: tuple[Cue, ...] = ()
 
     def back_on_line(self, pose: Pose) -> Pose:
         """The pose on the nearest line that is most like this one; this one itself where there is no line."""

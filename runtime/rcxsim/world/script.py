@@ -20,7 +20,7 @@ from math import radians
 
 from golc.diagnostics import Code, Findings, Span
 from golc.runtime.rcxsim.surroundings import Button
-from golc.runtime.rcxsim.world.people import At, Deed, Lift, Line, OnSound, OnStop, Press, PutAt, PutBack, PutDown
+from golc.runtime.rcxsim.world.people import At, Cue, Deed, Lift, OnSound, OnStop, Press, PutAt, PutBack, PutDown
 from golc.runtime.rcxsim.world.robot import SECOND
 from golc.theory.suggest import did_you_mean
 
@@ -58,7 +58,7 @@ class Names:
     stations: Collection[str]
 
 
-def read_line(text: str, where: Span, names: Names, findings: Findings) -> Line | None:
+def read_line(text: str, where: Span, names: Names, findings: Findings) -> Cue | None:
     """A line of a script; None if it is wrong, which is then a finding at ``where``."""
     when, colon, what = text.partition(":")
     match = _TRIGGER.fullmatch(when.strip())
@@ -69,7 +69,7 @@ def read_line(text: str, where: Span, names: Names, findings: Findings) -> Line 
     if not _known(match["station"], "station", names.stations, where, findings) or deed is None:
         return None
     if match["at"]:
-        return Line(At(), _micro(match["at"]), deed)
+        return Cue(At(), _micro(match["at"]), deed)
     nth = None if match["nth"] is None else int(match["nth"])
     if nth == 0:
         findings.error(Code.WORLD, "counts begin with `1st`", where)
@@ -82,7 +82,7 @@ def read_line(text: str, where: Span, names: Names, findings: Findings) -> Line 
             findings.error(Code.WORLD, f"the brick has no sound `{match['which']}`", where, help=help_)
             return None
         trigger = OnSound(number)
-    return Line(trigger, _micro(match["after"]), deed, nth, match["station"])
+    return Cue(trigger, _micro(match["after"]), deed, nth, match["station"])
 
 
 _UNHEARD_OF = -1

@@ -95,7 +95,7 @@ class Table:
         if isinstance(value, list) and len(value) > MOST_POINTS:
             self.error(f"`{key}` has {len(value)} points, and can have {MOST_POINTS}", self.place(key))
         found: list[Point] = []
-        for place, part in enumerate(value if isinstance(value, list) else ()):
+        for place, part in enumerate(value[:MOST_POINTS] if isinstance(value, list) else ()):
             x, y = self._numbers(key, part, 2, -FURTHEST, FURTHEST, place)
             if found and found[-1] == (x, y):
                 self.error(f"a point of `{key}` is the same as the one before it", self.place(key, place))
@@ -113,7 +113,7 @@ class Table:
         if isinstance(value, int) and not isinstance(value, bool):
             value = shown(value)  # `station = 3` for `station = "3"`
         if value is not None and (not isinstance(value, str) or value not in words):
-            help_ = did_you_mean(str(value), words) or f"it is {wanted}"
+            help_ = did_you_mean(shown(value), words) or f"it is {wanted}"
             self.error(f"`{key}` cannot be `{shown(value)}`", self.place(key), help=help_)
             return None
         return value

@@ -41,10 +41,6 @@ class World:
         self.record.begin(0.0, scene.robot.start)
 
     @property
-    def now(self) -> int:
-        return self._now
-
-    @property
     def pose(self) -> Pose:
         """Where the robot's middle is."""
         return self._drive.at(self._now).pose

@@ -10,8 +10,7 @@ from pathlib import Path
 from golc.diagnostics import Findings, Source, UserError
 from golc.runtime.rcxsim.world.floor import Floor, Line, Patch, Rectangle, Spot, Station, pushed_out
 from golc.runtime.rcxsim.world.geometry import Pose, Segment, along, length_of, needed, segments, smooth
-from golc.runtime.rcxsim.world.people import Line as ScriptLine
-from golc.runtime.rcxsim.world.people import PutAt
+from golc.runtime.rcxsim.world.people import Cue, PutAt
 from golc.runtime.rcxsim.world.robot import LEVELS, LightSensor, Robot, RotationSensor, Sensor, TouchSensor
 from golc.runtime.rcxsim.world.scene import Scene, pose_at_station
 from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, Names, read_line
@@ -233,7 +232,7 @@ def _buttons(root: Table) -> list[str]:
     return found
 
 
-def _script(table: Table, buttons: list[str], floor: Floor) -> tuple[ScriptLine, ...]:
+def _script(table: Table, buttons: list[str], floor: Floor) -> tuple[Cue, ...]:
     names = Names(buttons, floor.stations)
     lines = [read_line(text, where, names, table.findings) for text, where in table.texts("script")]
     table.finish()
