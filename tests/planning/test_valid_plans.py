@@ -26,7 +26,7 @@ CASES = [
     (EXAMPLES / "gates" / "gates.gl", "think_first"),
     (EXAMPLES / "sorter" / "sorter.gl", "sort_one"),
     (PROGRAMS / "lift.gl", "control"),
-    (PROGRAMS / "reactive-elevator.gl", "control"),
+    (EXAMPLES / "elevator" / "reactive.gl", "control"),
 ]
 
 
