@@ -162,7 +162,7 @@ class Knowledge:
         self.terms.then = before
         for prune in self.theory.prunes.values():
             try:
-                if prune.action in (None, action) and self.holds(prune.condition, after, args):
+                if prune.action in (None, action) and self.holds(prune.condition, after, args if prune.action else ()):
                     return True
             except NotKnownError:
                 pass

@@ -10,7 +10,7 @@ from golc.planning.and_or import Option, P, Problem, Solved, Stuck
 from golc.planning.dead_end import DeadEnd
 from golc.planning.ground_actions import GroundActions
 from golc.planning.limits import Budget
-from golc.planning.plans import answers, sensed
+from golc.planning.plans import answers, sensed, told
 from golc.program.ahead import Ahead
 from golc.program.labels import Act, Expect
 from golc.program.nodes import Node
@@ -53,7 +53,7 @@ class Goal(Problem[Pair]):
         return self._holds(pair[1], ())
 
     def options(self, pair: Pair) -> Iterator[Option[Pair]]:
-        """The actions that are possible, in their order."""
+        """What can be done, in the order of the ground actions."""
         for label, outcomes in self._actions.forks(pair[1]):
             yield Option(label, tuple([(outcome.results, (pair[0], outcome.state)) for outcome in outcomes]))
 
@@ -162,5 +162,5 @@ def _answered(stuck: Stuck[P], after: State, dynamics: Dynamics) -> str:
     if not stuck.results:
         return str(stuck.label)
     assert isinstance(stuck.label, Act)
-    names = sensed(dynamics, stuck.label, after)
-    return f"{stuck.label} ({answers(names, stuck.results)})"
+    names, results = sensed(dynamics, stuck.label, after), told(dynamics, stuck.label, stuck.results)
+    return f"{stuck.label} ({answers(names, results)})"

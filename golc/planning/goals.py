@@ -11,10 +11,8 @@ from golc.planning import conditional
 from golc.planning.dead_end import DeadEnd
 from golc.planning.ground_actions import GroundActions
 from golc.planning.limits import Budget, Limits
-from golc.planning.plans import Outcome, Plan, plan_of
-from golc.program.ahead import may_branch
+from golc.planning.plans import Outcome, Plan, Step, plan_of
 from golc.program.blame import false_parts
-from golc.program.labels import Act
 from golc.program.program import Program
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
@@ -31,13 +29,13 @@ class _Reached:
     """A state, how it was reached first, and after how many actions."""
 
     state: State
-    label: Act | None
+    label: Step | None
     before: _Reached | None
     depth: int
 
-    def actions(self) -> tuple[Act, ...]:
-        """The actions that lead here, in order."""
-        found: list[Act] = []
+    def steps(self) -> tuple[Step, ...]:
+        """The steps that lead here, in order."""
+        found: list[Step] = []
         step: _Reached | None = self
         while step is not None and step.label is not None:
             found.append(step.label)
@@ -48,9 +46,9 @@ class _Reached:
 class GoalPlanning:
     """A search for the shortest plan that makes a definition true; iterate over it, then read its ``outcome``.
 
-    The first in the order of the ground actions among equally short ones; a conditional plan if actions sense what is
-    not known, unless ``conformant``. Raises ``UserError`` for an action whose instances cannot be listed, and while
-    iterating ``ProgramError`` where the language says that something is an error.
+    The first in the order of the ground actions among equally short ones. It may wait for what is expected, and it is a
+    conditional plan if actions sense what is not known, unless ``conformant``. Raises ``UserError`` for an action whose
+    instances cannot be listed, and while iterating ``ProgramError`` where the language says that something is an error.
     """
 
     def __init__(self, theory: BasicActionTheory, goal: str, limits: Limits, conformant: bool = False) -> None:
@@ -59,8 +57,7 @@ class GoalPlanning:
         self._goal = theory.definitions[goal].body
         self._budget = Budget(limits)
         self._deepest: tuple[tuple[str, ...], State] | None = None
-        self._actions = GroundActions(self._dynamics)
-        self._branches = may_branch(self._dynamics) and not conformant
+        self._actions = GroundActions(self._dynamics, conformant)
         with deep_recursion():
             self._holds: Callable[..., bool] = self._dynamics.knowing.condition(self._goal, 0)
 
@@ -85,10 +82,10 @@ class GoalPlanning:
         initial = self._dynamics.initial()
         if self._holds(initial, ()):
             return Plan(())
-        if self._branches:
+        if self._actions.branch or self._actions.waits:
             return self._conditional(initial)
         reached = self._breadth_first(_Reached(initial, None, None, 0))
-        return None if reached is None else Plan(reached.actions())
+        return None if reached is None else Plan(reached.steps())
 
     def _breadth_first(self, start: _Reached) -> _Reached | None:
         seen = {start.state}
@@ -106,7 +103,7 @@ class GoalPlanning:
                         seen.add(state)
                         open_.append(after)
         finally:
-            self._deepest = tuple(map(str, reached.actions())), reached.state
+            self._deepest = tuple(map(str, reached.steps())), reached.state
         return None
 
     def _conditional(self, initial: State) -> Plan | None:

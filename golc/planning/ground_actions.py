@@ -7,8 +7,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 from golc.diagnostics import Code, Diagnostic, UserError
+from golc.planning.plans import Step
+from golc.program.ahead import may_branch
 from golc.program.blame import Blocked, impossible, pruned
-from golc.program.labels import Act
+from golc.program.expected import Events
+from golc.program.labels import Act, Expect
 from golc.program.prunes import Prunes
 from golc.situation.dynamics import Dynamics, Outcome
 from golc.situation.worlds import State
@@ -29,11 +32,18 @@ class _Ground:
 
 class GroundActions:
     """Every primitive action with all its arguments, in the order of declaration, then of the parameters' types, the
-    last argument fastest. Raises ``UserError`` for an action whose instances cannot be listed."""
+    last argument fastest; after them, to wait for what is expected.
 
-    def __init__(self, dynamics: Dynamics) -> None:
+    ``branch``: whether an action may tell something that is not known; with ``conformant`` nothing is told. ``waits``:
+    whether anything is ever expected. Raises ``UserError`` for an action whose instances cannot be listed.
+    """
+
+    def __init__(self, dynamics: Dynamics, conformant: bool = False) -> None:
         self._dynamics = dynamics
         self._prunes = Prunes(dynamics)
+        self._events = Events(dynamics)
+        self.waits = bool(self._events)
+        self.branch = may_branch(dynamics) and not conformant
         actions = [action for action in dynamics.theory.actions.values() if not action.exogenous]
         _check_finite(actions)
         self._ground = [ground for action in actions for ground in self._instances(action)]
@@ -43,7 +53,7 @@ class GroundActions:
         for args in itertools.product(*[parameter.type.values for parameter in action.parameters]):
             yield _Ground(Act(action.name, args, action.span), possible)
 
-    def successors(self, state: State) -> Iterator[tuple[Act, State]]:
+    def successors(self, state: State) -> Iterator[tuple[Step, State]]:
         """What can be done in a state without entering a bad situation, with the state after it, as long as it is not
         known what the action senses."""
         for ground in self._ground:
@@ -52,11 +62,18 @@ class GroundActions:
                 after = self._dynamics.progress(state, label.action, label.args)
                 if self._prune(state, label, after) is None:
                     yield label, after
+        if (event := self._events.first(state)) is not None:
+            expected = Expect(event.action, event.args, self._dynamics.theory.actions[event.action].span)
+            after = self._dynamics.progress(state, event.action, event.args)
+            if self._prune(state, expected, after) is None:
+                yield expected, after
 
-    def forks(self, state: State) -> Iterator[tuple[Act, list[Outcome]]]:
+    def forks(self, state: State) -> Iterator[tuple[Step, list[Outcome]]]:
         """The same, with what may be sensed."""
         for label, after in self.successors(state):
-            outcomes = self._dynamics.outcomes(after, label.action, label.args)
+            outcomes = [Outcome((), after)]
+            if self.branch and isinstance(label, Act):
+                outcomes = self._dynamics.outcomes(after, label.action, label.args)
             if all(self._prune(state, label, outcome.state) is None for outcome in outcomes):
                 yield label, outcomes
 
@@ -64,7 +81,7 @@ class GroundActions:
         """Why not even one of the first actions, at most so many, can be done in a state."""
         return [self._why_not(state, ground) for ground in self._ground[:most]]
 
-    def _prune(self, before: State, label: Act, after: State) -> str | None:
+    def _prune(self, before: State, label: Step, after: State) -> str | None:
         return self._prunes.hit(before, label.action, label.args, after)
 
     def _why_not(self, state: State, ground: _Ground) -> Blocked:

@@ -10,6 +10,7 @@ from golc.program.labels import Act, Expect
 from golc.program.paths import Path, bottom_up
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
+from golc.theory.order import spelt
 from golc.theory.terms import FluentTerm
 from golc.theory.types import Number, Unknown, Value, show, show_call
 
@@ -58,7 +59,7 @@ def plan_of(path: Path, dynamics: Dynamics, cost: Number | None = None) -> Plan:
             last = part.labels[-1]
             assert isinstance(last, Act)
             names = sensed(dynamics, last, part.branches[0].path.states[0])
-            cases = tuple([Case(branch.results, plans[branch.path]) for branch in part.branches])
+            cases = tuple([Case(told(dynamics, last, branch.results), plans[branch.path]) for branch in part.branches])
             plans[part] = Plan(steps, names, cases)
         else:
             plans[part] = Plan(steps)
@@ -79,6 +80,12 @@ def sensed(dynamics: Dynamics, act: Act, state: State) -> tuple[str, ...]:
                 name = show_call(term.fluent, args)
         names.append(name)
     return tuple(names)
+
+
+def told(dynamics: Dynamics, act: Act, results: tuple[Value, ...]) -> tuple[Value, ...]:
+    """Results of sensing as they are to be written."""
+    senses = dynamics.theory.actions[act.action].senses
+    return tuple([spelt(result, term.type) for result, term in zip(results, senses, strict=True)])
 
 
 def answers(names: tuple[str, ...], results: tuple[Value, ...]) -> str:

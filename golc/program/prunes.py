@@ -14,7 +14,8 @@ from golc.theory.terms import Before, subterms
 from golc.theory.theory import Prune
 
 Holds: TypeAlias = Callable[[State, Args, State], bool]
-"""Whether a prune is known to hold: a function of the state before an action, its arguments, and the state after it."""
+"""Whether a prune is known to hold: a function of the state before an action, the arguments that the prune speaks of,
+and the state after it."""
 
 
 class Prunes:
@@ -31,7 +32,7 @@ class Prunes:
     def hit(self, before: State, action: str, args: Args, after: State) -> str | None:
         """The first prune that holds in the state to which an action has led, by its name; none if none does."""
         for prune, holds in self._prunes:
-            if prune.action in (None, action) and holds(before, args, after):
+            if prune.action in (None, action) and holds(before, args if prune.action else (), after):
                 return prune.name
         return None
 

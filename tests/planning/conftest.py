@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import itertools
 import json
 from collections.abc import Callable, Iterator
 from typing import Any
@@ -12,8 +13,9 @@ from golc.cli import invoke
 from golc.diagnostics import Findings, Source
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
+from golc.theory.order import spelt
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import writable
+from golc.theory.types import Type, writable
 
 Plan = list[dict[str, Any]]
 """A plan as it is printed."""
@@ -35,6 +37,11 @@ def theory_of() -> Callable[[str], BasicActionTheory]:
         return theory
 
     return make
+
+
+def as_json(values: tuple[Any, ...], types: list[Type]) -> str:
+    """Values as they are printed."""
+    return json.dumps(writable(tuple(map(spelt, values, types))))
 
 
 class Validity:
@@ -82,7 +89,8 @@ class Validity:
 
     def _is(self, step: dict[str, Any], label: tuple[Any, ...]) -> bool:
         kind, name, args = label if label[0] == "expected" else ("action", *label)
-        return bool(step.get(kind) == name and step["args"] == json.loads(json.dumps(writable(args))))
+        types = [parameter.type for parameter in self.theory.actions[name].parameters]
+        return step.get(kind) == name and json.dumps(step["args"]) == as_json(args, types)
 
     def _ways(self, plan: Plan, name: str, args: Any, before: Any, after: Any) -> list[tuple[Any, Plan]] | None:
         """What is known after the first step of a plan, by the results of sensing, each with the steps to go on with;
@@ -96,24 +104,30 @@ class Validity:
         if len(plan) > 1 or len(outcomes) == 1 or len(branches) != len(outcomes):
             return None
         by_results = {json.dumps(branch["results"]): branch["plan"] for branch in branches}
-        named = {json.dumps(writable(results)): known for results, known in outcomes.items()}
+        types = [term.type for term in self.theory.actions[name].senses]
+        named = {as_json(results, types): known for results, known in outcomes.items()}
         return [(known, by_results[name]) for name, known in named.items()] if {*named} == {*by_results} else None
 
     def _reaches(self, goal: Any, worlds: Any, plan: Plan) -> bool:
         if not plan:
             return bool(self.d.k.holds(goal, worlds, ()))
-        action = self.theory.actions.get(plan[0].get("action", ""))
-        if action is None:
+        event = self.d.expected(worlds)
+        if "expected" in plan[0]:
+            label = ("expected", *event) if event is not None else None
+        else:
+            label = next((ground for ground in self._ground(worlds) if self._is(plan[0], ground)), None)
+        if label is None or not self._is(plan[0], label):
             return False
-        types = [parameter.type for parameter in action.parameters]
-        args = tuple(
-            next((value for value in type_.values if writable(value) == arg), None)
-            for type_, arg in zip(types, plan[0]["args"], strict=True)
-        )
-        if not self.d.k.possible(action.name, worlds, args):
-            return False
-        ways = self._ways(plan, action.name, args, worlds, self.d.k.progress(action.name, worlds, args))
+        name, args = label[-2:]
+        ways = self._ways(plan, name, args, worlds, self.d.k.progress(name, worlds, args))
         return ways is not None and all(self._reaches(goal, known, rest) for known, rest in ways)
+
+    def _ground(self, worlds: Any) -> Iterator[tuple[str, Any]]:
+        """The actions that are possible."""
+        for action in self.theory.actions.values():
+            for args in itertools.product(*[p.type.values for p in action.parameters]) if not action.exogenous else ():
+                if self.d.k.possible(action.name, worlds, args):
+                    yield action.name, args
 
 
 @pytest.fixture(scope="session")

@@ -154,6 +154,10 @@ def of_goal(d: Any) -> float:
                 outcomes = d.k.outcomes(name, d.k.progress(name, worlds, ()), ()).values()
                 if not any(d.k.pruned(name, (), worlds, known) for known in outcomes):
                     found.append((1, [*outcomes]))
+        if (event := d.expected(worlds)) is not None:
+            after = d.k.progress(event[0], worlds, event[1])
+            if not d.k.pruned(*event, worlds, after):
+                found.append((0, [after]))
         return found
 
     assume(d.k.initial())
@@ -193,17 +197,20 @@ def test_a_plan_is_found_exactly_if_there_is_one(
             assert plan is None or weight(plan) <= steps
 
 
-@given(domain=domains())
+@given(domain=domains(), conformant=st.booleans(), bound=st.sampled_from([None, 1, 2]))
 def test_a_goal_is_reached_exactly_if_it_can_be(
-    theory_of: TheoryOf, definitions: Any, validity: Any, domain: str
+    theory_of: TheoryOf, definitions: Any, validity: Any, domain: str, conformant: bool, bound: int | None
 ) -> None:
     theory = theory_of(f"{domain}\n")
-    wanted = of_goal(definitions(theory, True))
-    plan = next(iter(GoalPlanning(theory, "reached", Limits())), None)
-    assert (plan is not None) == (wanted < math.inf)
+    defined = definitions(theory, True)
+    if conformant:
+        defined.k.outcomes = lambda action, worlds, args: {(): worlds}
+    wanted = of_goal(defined)
+    plan = next(iter(GoalPlanning(theory, "reached", Limits(steps=bound), conformant)), None)
+    assert (plan is not None) == (wanted < math.inf if bound is None else wanted <= bound)
     if plan is not None:
         assert weight(plan) == wanted
-        assert validity(theory).of_goal(as_printed(plan), "reached")
+        assert validity(theory, conformant).of_goal(as_printed(plan), "reached")
 
 
 @given(domain=domains(), body=PROGRAMS)
