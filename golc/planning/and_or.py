@@ -59,13 +59,15 @@ class Solved(Generic[P]):
 @dataclass(frozen=True, eq=False, slots=True)
 class Stuck(Generic[P]):
     """Why there is no plan from a pair: nothing can be done there, or the option whose way leads deepest leads, with
-    one of its results, to where there is none. ``actions``: how many there are on the way."""
+    one of its results, to where there is none. ``actions``: how many there are on the way; ``blocked``: nothing can be
+    done where it ends, while otherwise all that can be done there leads back or is cut off by the bound on steps."""
 
     pair: P
     label: Foreseen | None = None
     results: tuple[Value, ...] = ()
     then: Stuck[P] | None = None
     actions: int = 0
+    blocked: bool = True
 
 
 @dataclass(eq=False, slots=True)
@@ -77,7 +79,7 @@ class _Failure(Generic[P]):
 
     pair: P
     actions: int
-    stuck: Stuck[P] | None
+    stuck: Stuck[P]
     position: int | None
 
 
@@ -108,9 +110,9 @@ class _Open(Generic[P]):
         if stuck is None:
             return
         actions = stuck.actions + isinstance(option.label, Act)
-        if self.stuck is None or actions > self.stuck.actions:
+        if self.stuck is None or (stuck.blocked, actions) > (self.stuck.blocked, self.stuck.actions):
             results = option.outcomes[len(self.ways)][0] if len(option.outcomes) > 1 else ()
-            self.stuck = Stuck(self.pair, option.label, results, stuck, actions)
+            self.stuck = Stuck(self.pair, option.label, results, stuck, actions, stuck.blocked)
 
 
 def first(
@@ -122,7 +124,7 @@ def first(
 ) -> Solved[P] | None:
     """The first plan with at least one step that ends in every outcome, options in their order; none if there is none.
 
-    ``tell`` hears why there is none, unless every way leads back to itself or is cut off by the bound on steps.
+    ``tell`` hears why there is none.
     ``place``: what must not be met again on a way. Raises ``LimitError`` at a limit.
     """
     search = _Search(problem, budget, place)
@@ -150,7 +152,7 @@ class _Search(Generic[P]):
         self._failed: dict[P, _Failure[P]] = {}
         self._tentative: list[_Failure[P]] = []
 
-    def run(self, start: P) -> Solved[P] | Stuck[P] | None:
+    def run(self, start: P) -> Solved[P] | Stuck[P]:
         """See ``first``."""
         self._enter(start, 0, 0)
         while True:
@@ -228,7 +230,7 @@ class _Search(Generic[P]):
             return math.inf
         return self._way[bisect_right(self._way, failure.position, key=lambda open_: open_.mark) - 1].low
 
-    def _leave(self, top: _Open[P]) -> tuple[Solved[P] | Stuck[P] | None, float]:
+    def _leave(self, top: _Open[P]) -> tuple[Solved[P] | Stuck[P], float]:
         """Close the last pair of the way: its plan, or why there is none and the ``low`` of this failure."""
         depth = len(self._way) - 1
         self._way.pop()
@@ -242,7 +244,7 @@ class _Search(Generic[P]):
             del self._tentative[top.mark :]
             self._solved[top.pair] = solved
             return solved, math.inf
-        stuck = Stuck(top.pair) if top.idle else top.stuck
+        stuck = top.stuck or Stuck(top.pair, blocked=top.idle)
         self._failed[top.pair] = failure = _Failure(top.pair, top.actions, stuck, None)
         low = top.low if top.low < depth else math.inf
         if low < depth:

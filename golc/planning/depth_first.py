@@ -66,8 +66,9 @@ def find(machine: Ahead, node: Node, state: State, budget: Budget, dead_end: Dea
                 steps.append(_Step(label, residual, after, actions, quiet, machine.successors(residual, after)))
                 break
         else:
-            if dead_end is not None and not step.leads_on:
-                dead_end.consider(step.actions, (step.label for step in steps), step.node, step.state)
+            blocked = not step.leads_on
+            if dead_end is not None and dead_end.outdone(step.actions, blocked):
+                dead_end.remember(step.actions, blocked, (step.label for step in steps), step.node, step.state)
             steps.pop()
     return None
 

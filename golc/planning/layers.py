@@ -166,14 +166,14 @@ class _Search:
     def _steps(self, way: _Way) -> Iterator[_Way]:
         """The ways that are one step longer, as far as the budget allows."""
         self._budget.spend()
-        stuck = True
+        blocked = True
         for number, successor in enumerate(self._machine.successors(way.node, way.state)):
-            stuck = False
+            blocked = False
             after = way.extended(number, successor)
             if self._budget.allows(after.actions):
                 yield after
-        if stuck:
-            self._dead_end.consider(way.actions, way.labels(), way.node, way.state)
+        if self._dead_end.outdone(way.actions, blocked):
+            self._dead_end.remember(way.actions, blocked, way.labels(), way.node, way.state)
 
     def _postpone(self, way: _Way, weight: Number, source: Number) -> None:
         if not self._worth(way):

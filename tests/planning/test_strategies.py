@@ -6,6 +6,7 @@ from fractions import Fraction
 from itertools import pairwise, permutations
 from pathlib import Path
 
+import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
@@ -131,7 +132,8 @@ def test_a_bound_that_is_too_small_is_told() -> None:
     planning = Planning(compiled(["inc", "inc"]), Limits(steps=1), strategy=Strategy.CHEAPEST)
     assert list(planning) == []
     assert planning.outcome.gave_up == "no plan of more than 1 steps was considered"
-    assert [str(action) for action in planning.outcome.stuck] == []
+    assert planning.outcome.stuck == ("inc",)
+    assert planning.outcome.reasons == []
 
 
 def test_where_no_plan_is_the_longest_way_is_told() -> None:
@@ -142,6 +144,36 @@ def test_where_no_plan_is_the_longest_way_is_told() -> None:
     assert planning.outcome.gave_up is None
     assert [str(action) for action in planning.outcome.stuck] == ["inc", "a"]
     assert [reason.span.text for reason in planning.outcome.reasons] == ["off(2)"]
+
+
+ROUND = """domain round
+fluent at: 1..2 = 1
+fluent key: bool = {key}
+action go(x: 1..2):
+    poss x != at
+    causes at := x
+action enter:
+    poss key
+action look:
+    poss false
+    senses key
+proc control:
+    star:
+        pick x: 1..2:
+            go(x)
+    enter
+    look
+"""
+
+
+@pytest.mark.parametrize("key", ["false", "unknown"])
+@pytest.mark.parametrize("strategy", Strategy)
+def test_where_every_way_leads_back_the_longest_is_told(strategy: Strategy, key: str) -> None:
+    planning = Planning(executable(parsed(ROUND.format(key=key)), "control"), Limits(), strategy=strategy)
+    assert list(planning) == []
+    assert planning.outcome.gave_up is None
+    assert planning.outcome.stuck[:1] == ("go(2)",)
+    assert planning.outcome.reasons[0].span.text == "enter"
 
 
 def test_a_plan_that_was_found_is_not_given_up_because_a_longer_way_was_cut() -> None:
