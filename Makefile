@@ -19,7 +19,7 @@ test: $(VENV)/ready nqc
 	rm -rf build && $(BIN)/pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir build/wheel .
 	tests/packaging/try-wheel $(PYTHON) build/wheel/*.whl
 	$(MAKE) --no-print-directory docs
-	$(BIN)/pytest --cov --cov-report=term:skip-covered -q
+	$(BIN)/pytest -n auto --cov --cov-report=term:skip-covered -q
 
 # Property tests on 5,000 new examples each.
 thorough: $(VENV)/ready nqc

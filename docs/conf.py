@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -38,3 +39,15 @@ def setup(app: Sphinx) -> None:
 
     app.add_lexer("golc", GolcLexer)
     app.add_lexer("nqc", CLexer)
+    app.connect("source-read", add_pages_of_codes)
+
+
+def add_pages_of_codes(app: Sphinx, name: str, text: list[str]) -> None:
+    """Put the pages of ``golc explain CODE`` below the page about codes, in their order."""
+    from golc.codes.pages import page
+    from golc.diagnostics import Code
+
+    if name == "codes":
+        for code in sorted(Code, key=lambda code: code.code):
+            body = re.sub("^## (.*)$", r"**\1**", page(code).text, flags=re.MULTILINE)
+            text[0] += f"\n## {code.code}: {code.title}\n\n{body}"

@@ -1,4 +1,4 @@
-"""What several rooms share: how many examples property tests try, and the definitions, written out naively.
+"""What several rooms share: how many examples property tests try, the definitions, written out naively, and a port.
 
 Property tests try 200 examples, the same every time, or with ``GOLC_EXAMPLES=5000`` that many new ones.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import itertools
 import os
 from collections.abc import Callable, Iterator
-from typing import Any, TypeAlias, cast
+from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 import pytest
 from hypothesis import HealthCheck, settings
@@ -18,6 +18,9 @@ from golc.theory import statements as typed
 from golc.theory.terms import Before, Choice, Epistemic, Term
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value
+
+if TYPE_CHECKING:
+    from golc.runtime.rcxsim.line import Line
 
 EXAMPLES = os.environ.get("GOLC_EXAMPLES")
 
@@ -405,3 +408,40 @@ class Definitions:
 def definitions() -> Callable[[BasicActionTheory, bool], Definitions]:
     """The definitions for a theory, in look-ahead or online."""
     return Definitions
+
+
+class VirtualPort:
+    """A transport whose other end is a simulated line; waiting for bytes is what makes time pass."""
+
+    name = "virtual"
+
+    def __init__(self, line: Line) -> None:
+        self._line = line
+        self._now = 0.0
+        self._arrived = b""
+
+    def open(self) -> None:
+        """There is nothing to open."""
+
+    def close(self) -> None:
+        """There is nothing to close."""
+
+    def now(self) -> float:
+        return self._now
+
+    def write(self, data: bytes) -> None:
+        self._arrived += self._line.host_sent(data, self._now)
+
+    def read(self, deadline: float) -> bytes:
+        while not self._arrived and self._now < deadline:
+            due = self._line.due()
+            self._now = deadline if due is None else min(deadline, max(due, self._now))
+            self._arrived += self._line.advance(self._now)
+        data, self._arrived = self._arrived, b""
+        return data
+
+
+@pytest.fixture(scope="session")
+def virtual_port() -> type[VirtualPort]:
+    """A port to a simulated line in virtual time."""
+    return VirtualPort

@@ -1,8 +1,9 @@
-"""``golc explain``: a name of a domain in the notation of the papers."""
+"""``golc explain``: a code of a finding, or a name of a domain in the notation of the papers."""
 
 from __future__ import annotations
 
 import re
+import shutil
 from collections.abc import Mapping
 
 import click
@@ -10,39 +11,55 @@ import click
 from golc.cli.common import Console, console_options, constants_option
 
 
-@click.command(name="explain", short_help="Show a name of a domain in the notation of the papers.")
-@click.argument("about", nargs=-1, metavar="FILE NAME")
+@click.command(name="explain", short_help="Explain a code, or show a name of a domain in the notation of the papers.")
+@click.argument("about", nargs=-1, metavar="CODE | FILE NAME")
 @click.option(
     "--format", "form", type=click.Choice(["text", "latex"]), default="text", help="Unicode, or LaTeX with amsmath."
 )
 @constants_option
 @console_options
 def command(console: Console, about: tuple[str, ...], form: str, constants: Mapping[str, str]) -> int:
-    """Show what NAME stands for in the domain FILE, in the notation of the papers.
+    """Explain the CODE of a finding, or show what NAME stands for in the domain FILE, in the notation of the papers.
+
+    A code has a page that says what it means, with a wrong and a right example.
 
     Of a fluent its successor state axiom, of an action its precondition and its effects, of a procedure the program; of
     everything else its definition. Where several things have the name, all of them.
 
     \b
+    golc explain GL012
     golc explain examples/elevator/elevator.gl lit
     golc explain examples/delivery/delivery.gl push_go_button --format latex
     """
+    if len(about) == 1:
+        console.out(_page(about[0], form, constants))
+        return 0
+    if len(about) != 2:
+        raise click.UsageError("a CODE, or a FILE and a NAME are needed: golc explain elevator.gl lit")
+
     from golc.explain.pages import explain
     from golc.explain.rendering import as_latex, as_text
     from golc.loading import load
 
-    file, name = _file_and_name(about)
+    file, name = about
     pages = explain(load(file, constants), name)
     console.out(as_latex(pages) if form == "latex" else as_text(pages))
     return 0
 
 
-def _file_and_name(about: tuple[str, ...]) -> tuple[str, str]:
-    if len(about) == 1 and re.fullmatch(r"GL\d{3}", about[0]):
-        raise click.UsageError(
-            f"{about[0]} is a code, and this explains the names of a domain; "
-            "the table of the codes is at the end of docs/command-line.md"
-        )
-    if len(about) != 2:
-        raise click.UsageError("a FILE and a NAME are needed: golc explain elevator.gl lit")
-    return about[0], about[1]
+def _page(word: str, form: str, constants: Mapping[str, str]) -> str:
+    from golc.codes.pages import page
+    from golc.codes.text import as_text
+    from golc.diagnostics import Code
+    from golc.theory.suggest import did_you_mean
+
+    codes = {code.code: code for code in Code}
+    code = codes.get(word.upper())
+    if code is None and re.fullmatch(r"gl\d+", word, re.IGNORECASE):
+        question = did_you_mean(word.upper(), codes)
+        raise click.UsageError(f"there is no code `{word}`" + (f": {question}" if question else ""))
+    if code is None:
+        raise click.UsageError("a CODE, or a FILE and a NAME are needed: golc explain elevator.gl lit")
+    if form != "text" or constants:
+        raise click.UsageError("--format and -D are for a FILE and a NAME, not for a CODE")
+    return as_text(page(code), shutil.get_terminal_size().columns)

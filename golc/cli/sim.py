@@ -175,8 +175,9 @@ def command(
     golc run examples/delivery/delivery.gl --port /tmp/brick --speed 5
     golc sim robot.nqc --world room.toml --for 10 --picture way.svg
     """
-    if link is not None and tcp is not None:
-        raise click.UsageError("--pty and --tcp exclude each other")
+    runs = {"--pty": link is not None, "--tcp": tcp is not None, "--for": seconds is not None}
+    _refuse_together({**runs, "--steps": steps is not None, "--listing": listing})
+    _refuse_together({"--listing": listing, "--picture": picture is not None})
     byte_code = sim_machine.is_byte_code(file) or scene is not None
     if byte_code:
         _refuse("a domain without --world", {"--events": events is not None})
@@ -227,6 +228,12 @@ def _refuse(of: str, given: Mapping[str, object]) -> None:
     for name, value in given.items():
         if value:
             raise click.UsageError(f"{name} is for {of}")
+
+
+def _refuse_together(given: Mapping[str, bool]) -> None:
+    """Refuse options of which each says by itself what is to be done."""
+    if len(names := [name for name, is_given in given.items() if is_given]) > 1:
+        raise click.UsageError(f"{' and '.join(names)} exclude each other")
 
 
 def _world(path: Path, seed: int, trace: Trace) -> World:

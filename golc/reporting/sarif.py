@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
+from golc.codes.pages import page
 from golc.diagnostics import Code, Diagnostic, Source, Span
 from golc.reporting.words import is_file, whole_message
 
@@ -28,7 +29,14 @@ def log(findings: Iterable[Diagnostic], counts: Mapping[str, int]) -> dict[str, 
 
 
 def _rule(code: Code) -> dict[str, Any]:
-    return {"id": code.code, "name": _camel(code.name), "shortDescription": {"text": f"{code.title}."}}
+    explained = page(code)
+    return {
+        "id": code.code,
+        "name": _camel(code.name),
+        "shortDescription": {"text": f"{code.title}."},
+        "fullDescription": {"text": explained.meaning},
+        "help": {"text": explained.meaning, "markdown": explained.text},
+    }
 
 
 def _camel(name: str) -> str:

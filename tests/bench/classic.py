@@ -18,8 +18,9 @@ from golc.runtime.rcxsim.machine.options import FIRMWARES, Options
 from golc.runtime.rcxsim.machine.simulator import build
 from golc.runtime.rcxsim.surroundings import Bench
 from golc.runtime.rcxsim.trace import Record, Trace
-from tests.bench.machine import VirtualPort, program
+from tests.bench.machine import program
 from tests.bench.measure import Row, Unit
+from tests.conftest import VirtualPort
 
 START = 2
 """The number of an action that is answered as soon as its task has been started."""

@@ -15,48 +15,18 @@ from golc.nqc.numbering import number_device
 from golc.nqc.toolchain import Target, compile_program
 from golc.runtime.devices.rcx.brick import Brick
 from golc.runtime.devices.rcx.tower import Tower
-from golc.runtime.rcxsim.line import Line, LineOptions
+from golc.runtime.rcxsim.line import LineOptions
 from golc.runtime.rcxsim.machine.options import FIRMWARES, Options
 from golc.runtime.rcxsim.machine.simulator import build
 from golc.runtime.rcxsim.surroundings import Bench
 from golc.runtime.rcxsim.trace import Trace
 from tests.bench.measure import Row, Unit
 from tests.bench.startup import DELIVERY
+from tests.conftest import VirtualPort
 
 SIGNAL = 1
 """The number of an action that takes half a second on the brick."""
 POLLS, PAUSE = 12, 0.25
-
-
-class VirtualPort:
-    """A transport whose other end is a simulated line; waiting for bytes is what makes time pass."""
-
-    name = "virtual"
-
-    def __init__(self, line: Line) -> None:
-        self._line = line
-        self._now = 0.0
-        self._arrived = b""
-
-    def open(self) -> None:
-        """There is nothing to open."""
-
-    def close(self) -> None:
-        """There is nothing to close."""
-
-    def now(self) -> float:
-        return self._now
-
-    def write(self, data: bytes) -> None:
-        self._arrived += self._line.host_sent(data, self._now)
-
-    def read(self, deadline: float) -> bytes:
-        while not self._arrived and self._now < deadline:
-            due = self._line.due()
-            self._now = deadline if due is None else min(deadline, max(due, self._now))
-            self._arrived += self._line.advance(self._now)
-        data, self._arrived = self._arrived, b""
-        return data
 
 
 @cache

@@ -43,10 +43,52 @@ def test_a_file_with_errors(tmp_path: Path, capsys: Captured) -> None:
     assert capsys.readouterr().err.startswith("error[GL050]")
 
 
+def test_a_code(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "60")
+    assert invoke(["explain", "gl024"]) == 0
+    assert (
+        capsys.readouterr().out
+        == """GL024: the command line replaces a constant that does not exist
+
+`-D name=value` replaces the value of a `const` of the file,
+and the file has no const of this name.
+
+Wrong
+
+    domain lift
+    const top = 4
+    fluent at: 1..top = 1
+
+    action up:
+        poss at = 1
+        causes at := top
+
+    proc control:
+        up
+
+    $ golc check example.gl -D tpo=6
+
+Right
+
+    $ golc check example.gl -D top=6
+"""
+    )
+
+
+def test_files_of_an_example_are_named(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "1000")
+    assert invoke(["explain", "GL096"]) == 0
+    out = capsys.readouterr().out
+    assert "\n\nrobot.nqc:\n\n    task drive_up() { Wait(100); }\n\nRight\n" in out
+    assert max(map(len, out.splitlines())) <= 100
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        (["GL012"], "GL012 is a code"),
+        (["GL0122"], "there is no code `GL0122`: did you mean `GL012`?"),
+        (["GL012", "--format", "latex"], "are for a FILE and a NAME"),
+        (["GL012", "-D", "top=4"], "are for a FILE and a NAME"),
         ([ELEVATOR], "a FILE and a NAME are needed"),
         ([], "a FILE and a NAME are needed"),
         ([ELEVATOR, "up", "down"], "a FILE and a NAME are needed"),

@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 from pygments.token import Comment, Keyword, Name, Operator, String, Token, _TokenType
 
+from golc.diagnostics import Code
 from golc.highlighting import GolcLexer
 from golc.syntax.words import RESERVED
 
@@ -32,6 +33,11 @@ def test_every_page_is_reached_from_the_front_page(site: Path) -> None:
     front = (site / "index.html").read_text(encoding="utf-8")
     missing = [str(page) for page in pages if f'href="{page}"' not in front]
     assert sorted(missing) == ["README.html", "index.html"]
+
+
+def test_every_code_has_a_section(site: Path) -> None:
+    page = (site / "codes.html").read_text(encoding="utf-8")
+    assert re.findall(r"<h2>(GL\d{3}): ", page) == sorted(code.code for code in Code)
 
 
 def test_site_needs_no_network(site: Path) -> None:

@@ -18,7 +18,7 @@ from golc.theory.theory import BasicActionTheory
 ROOT = Path(__file__).parents[2]
 FILES = [
     *sorted((ROOT / "examples").glob("*/*.gl")),
-    *(ROOT / "tests" / "programs" / f"{name}.gl" for name in ("lift", "reactive-elevator", "delivery_wait")),
+    *(ROOT / "tests" / "programs" / f"{name}.gl" for name in ("lift", "delivery_wait")),
 ]
 _MACROS = r"""
     \paragraph \subparagraph \begin \end \text \mathit \mathbf \mathrm \mathrel \quad \textbackslash \textasciicircum

@@ -28,7 +28,7 @@ EXAMPLES = [
     ROOT / "examples" / "elevator" / "elevator.gl",
     ROOT / "examples" / "sorter" / "sorter.gl",
     ROOT / "tests" / "programs" / "lift.gl",
-    ROOT / "tests" / "programs" / "reactive-elevator.gl",
+    ROOT / "examples" / "elevator" / "reactive.gl",
 ]
 SMALL = range(-12, 13)
 """The integers that are tried where a type has all of them."""

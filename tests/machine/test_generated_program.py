@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -20,49 +20,21 @@ from golc.nqc.numbering import number_device
 from golc.nqc.toolchain import Target, compile_program
 from golc.runtime.devices.rcx.brick import Brick
 from golc.runtime.devices.rcx.tower import Tower
-from golc.runtime.rcxsim.line import Line, LineOptions
+from golc.runtime.rcxsim.line import LineOptions
 from golc.runtime.rcxsim.machine.brick import MachineBrick
 from golc.runtime.rcxsim.machine.options import FIRMWARES, Options
 from golc.runtime.rcxsim.machine.simulator import build
 from golc.runtime.rcxsim.surroundings import Bench, Mode
 from golc.runtime.rcxsim.trace import Trace
 
+if TYPE_CHECKING:
+    from tests.conftest import VirtualPort
+
 DELIVERY = Path(__file__).parents[2] / "examples" / "delivery" / "delivery.gl"
 TURN, SIGNAL, START, ARRIVED, LOST, PUSHED = range(6)
 BUTTON, EYE = 0, 2
 FLOOR, LINE, STATION = [(146 - percent) * 7 for percent in (50, 30, 70)]
 BOTH = pytest.mark.parametrize("target", list(Target))
-
-
-class VirtualPort:
-    """A transport whose other end is a simulated line; waiting for bytes is what makes time pass."""
-
-    name = "virtual"
-
-    def __init__(self, line: Line) -> None:
-        self._line = line
-        self._now = 0.0
-        self._arrived = b""
-
-    def open(self) -> None:
-        """There is nothing to open."""
-
-    def close(self) -> None:
-        """There is nothing to close."""
-
-    def now(self) -> float:
-        return self._now
-
-    def write(self, data: bytes) -> None:
-        self._arrived += self._line.host_sent(data, self._now)
-
-    def read(self, deadline: float) -> bytes:
-        while not self._arrived and self._now < deadline:
-            due = self._line.due()
-            self._now = deadline if due is None else min(deadline, max(due, self._now))
-            self._arrived += self._line.advance(self._now)
-        data, self._arrived = self._arrived, b""
-        return data
 
 
 @dataclass
@@ -114,7 +86,7 @@ def images(tmp_path_factory: pytest.TempPathFactory) -> dict[Target, Image]:
 
 
 @pytest.fixture
-def robot(images: dict[Target, Image]) -> Callable[..., Robot]:
+def robot(images: dict[Target, Image], virtual_port: type[VirtualPort]) -> Callable[..., Robot]:
     def make(target: Target = Target.RCX2, *, seed: int = 0, op_time: int | None = None, **line: Any) -> Robot:
         records: list[dict[str, Any]] = []
         trace = Trace(lambda record: records.append(dict(record)))
@@ -123,7 +95,7 @@ def robot(images: dict[Target, Image]) -> Callable[..., Robot]:
         image = images[target]
         options = Options(seed=seed, op_time=op_time)
         end, brick = build(FIRMWARES[image.target], image, bench, options, LineOptions(**line), trace)
-        port = VirtualPort(end)
+        port = virtual_port(end)
         return Robot(brick, bench, port, Brick(Tower(port)), records)
 
     return make

@@ -118,15 +118,16 @@ def test_what_the_firmware_cannot_be_like(golc: Golc, count: str, setting: str) 
         (["--listing"], "--listing is for a program"),
         (["count.nqc", "-D", "a=1"], "-D is for a domain"),
         (["count.nqc", "--events", "x"], "--events is for a domain"),
+        (["count.nqc", "--for", "1", "--steps", "9"], "--for and --steps exclude each other"),
+        (["count.nqc", "--for", "1", "--pty", "p"], "--pty and --for exclude each other"),
+        (["count.nqc", "--world", "w", "--listing", "--picture", "p"], "--listing and --picture exclude each other"),
         (["robot.gl", "--target", "rcx"], "--target is for byte code"),
         (["robot.gl", "--brick", "battery=1"], "--brick is for byte code"),
         (["robot.gl", "--for", "1"], "--for is for byte code"),
         (["robot.gl", "--listing"], "--listing is for byte code"),
     ],
 )
-def test_options_that_belong_to_the_other_brick_are_refused(
-    golc: Golc, count: str, arguments: list[str], reason: str
-) -> None:
+def test_options_that_do_not_fit_are_refused(golc: Golc, count: str, arguments: list[str], reason: str) -> None:
     code, _, complaint = golc("sim", *arguments)
     assert code == 2
     assert reason in complaint

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -12,47 +12,23 @@ from golc.runtime.devices.rcx.brick import Brick
 from golc.runtime.devices.rcx.errors import PanicError
 from golc.runtime.devices.rcx.tower import Tower
 from golc.runtime.rcxsim.frames import message
-from golc.runtime.rcxsim.line import Line
+
+if TYPE_CHECKING:
+    from tests.conftest import VirtualPort
 
 MakeWire = Callable[..., Any]
+Connect = Callable[[Any], "tuple[Brick, VirtualPort]"]
 NUMBERS = {"up": 0, "go": 1, "look(1)": 2, "weigh": 5, "unload": 6, "turn_off(1)": 65, "turn_off(3)": 67}
 EVENTS = {8: "arrived", 9: "stuck", 10: "bell", 16: "call(1)", 17: "call(2)", 18: "call(3)"}
 
 
-class VirtualPort:
-    """A transport whose other end is a simulated line; waiting for bytes is what makes time pass."""
+@pytest.fixture
+def connect(virtual_port: type[VirtualPort]) -> Connect:
+    def connected(lift: Any) -> tuple[Brick, VirtualPort]:
+        port = virtual_port(lift.line)
+        return Brick(Tower(port)), port
 
-    name = "virtual"
-
-    def __init__(self, line: Line) -> None:
-        self._line = line
-        self._now = 0.0
-        self._arrived = b""
-
-    def open(self) -> None:
-        """There is nothing to open."""
-
-    def close(self) -> None:
-        """There is nothing to close."""
-
-    def now(self) -> float:
-        return self._now
-
-    def write(self, data: bytes) -> None:
-        self._arrived += self._line.host_sent(data, self._now)
-
-    def read(self, deadline: float) -> bytes:
-        while not self._arrived and self._now < deadline:
-            due = self._line.due()
-            self._now = deadline if due is None else min(deadline, max(due, self._now))
-            self._arrived += self._line.advance(self._now)
-        data, self._arrived = self._arrived, b""
-        return data
-
-
-def connect(lift: Any) -> tuple[Brick, VirtualPort]:
-    port = VirtualPort(lift.line)
-    return Brick(Tower(port)), port
+    return connected
 
 
 def happened(lift: Any, *kinds: str) -> list[str]:
@@ -60,7 +36,7 @@ def happened(lift: Any, *kinds: str) -> list[str]:
     return [record["action"] for record in lift.records if record["what"] in kinds]
 
 
-def test_one_exchange_takes_the_time_of_two_messages_and_a_reaction(wire: MakeWire) -> None:
+def test_one_exchange_takes_the_time_of_two_messages_and_a_reaction(wire: MakeWire, connect: Connect) -> None:
     brick, port = connect(wire(air_time=1.0, echo=True))
     brick.poll()
     start = port.now()
@@ -68,7 +44,7 @@ def test_one_exchange_takes_the_time_of_two_messages_and_a_reaction(wire: MakeWi
     assert port.now() - start == pytest.approx(0.1475, abs=0.003)
 
 
-def test_values_and_events_arrive(wire: MakeWire) -> None:
+def test_values_and_events_arrive(wire: MakeWire, connect: Connect) -> None:
     lift = wire("on go after 1 s: arrived\n", air_time=1.0, echo=True)
     brick, port = connect(lift)
     assert brick.perform(5) == 9
@@ -78,7 +54,7 @@ def test_values_and_events_arrive(wire: MakeWire) -> None:
 
 
 @pytest.mark.parametrize("seed", range(50))
-def test_everything_arrives_exactly_once_whatever_is_lost(wire: MakeWire, seed: int) -> None:
+def test_everything_arrives_exactly_once_whatever_is_lost(wire: MakeWire, connect: Connect, seed: int) -> None:
     chance = random.Random(seed)
     lift = wire(None, seed=seed, air_time=1.0, echo=True, loss=0.06, garble=0.06)
     brick, port = connect(lift)
@@ -101,7 +77,7 @@ def test_everything_arrives_exactly_once_whatever_is_lost(wire: MakeWire, seed: 
         assert values == [next(sensed)["number"] if name in ("look(1)", "weigh") else 0 for name in ordered]
 
 
-def test_abort_stops_a_behaviour(wire: MakeWire) -> None:
+def test_abort_stops_a_behaviour(wire: MakeWire, connect: Connect) -> None:
     lift = wire(air_time=1.0, echo=True)
     brick, port = connect(lift)
     port.write(message(32))
@@ -111,7 +87,7 @@ def test_abort_stops_a_behaviour(wire: MakeWire) -> None:
     assert brick.perform(1) == 0
 
 
-def test_panic_reaches_the_host_and_is_ended(wire: MakeWire) -> None:
+def test_panic_reaches_the_host_and_is_ended(wire: MakeWire, connect: Connect) -> None:
     lift = wire(air_time=0.0, echo=False, sleep=None)
     assert lift.say(37, 3.0)[-1] == 73
     lift.wait(14)

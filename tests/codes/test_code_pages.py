@@ -1,0 +1,71 @@
+"""Every code has a page; its wrong example has exactly this finding, its right one has none."""
+
+from __future__ import annotations
+
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+
+from golc.cli import invoke
+from golc.codes.pages import EXAMPLE, Example, page
+from golc.diagnostics import Code, Findings, Source
+from golc.syntax.format import formatted
+
+FOUND = re.compile(r"^(?:error|warning|note)\[(GL\d{3})\]", re.MULTILINE)
+QUICK = ("check", "plan", "test", "gen-nqc")
+"""Commands without threads and signals, which are called in this process."""
+
+
+@pytest.fixture
+def found(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> Iterator[Callable[[Example, Path], list[str]]]:
+    """The codes that the command of an example finds in its files, which are written into a folder."""
+
+    def find(example: Example, folder: Path) -> list[str]:
+        folder.mkdir()
+        for name, text in example.files.items():
+            path = folder / name
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        monkeypatch.chdir(folder)
+        program, *arguments = shlex.split(example.command)
+        if program == "golc" and arguments[0] in QUICK:
+            code = invoke(arguments)
+        else:
+            command = [sys.executable, *(["-m", "golc"] if program == "golc" else []), *arguments]
+            code = subprocess.run(command, stdin=subprocess.DEVNULL, timeout=120, check=False).returncode
+        said = "".join(capfd.readouterr())
+        assert code in (0, 1, 5), said
+        return FOUND.findall(said)
+
+    before = sys.getrecursionlimit()
+    yield find
+    sys.setrecursionlimit(before)  # the command line raises it
+
+
+def needs_nqc(example: Example) -> bool:
+    return "--compile" in example.command or "sim robot.nqc" in example.command
+
+
+@pytest.mark.parametrize("code", Code, ids=lambda code: code.code)
+def test_the_examples_are_what_they_are_for(
+    code: Code, tmp_path: Path, found: Callable[[Example, Path], list[str]]
+) -> None:
+    wrong, right = page(code).wrong, page(code).right
+    if shutil.which("nqc") is None and (needs_nqc(wrong) or needs_nqc(right)):
+        pytest.skip("nqc is missing")
+    assert found(wrong, tmp_path / "wrong") == [code.code]
+    assert found(right, tmp_path / "right") == []
+
+
+@pytest.mark.parametrize("code", Code, ids=lambda code: code.code)
+def test_right_examples_are_laid_out_canonically(code: Code) -> None:
+    text = page(code).right.files.get(EXAMPLE)
+    assert text is None or formatted(Source(EXAMPLE, text), Findings()) == text
