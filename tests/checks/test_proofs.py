@@ -44,8 +44,13 @@ def test_the_original_delivery_robot_has_three_faults() -> None:
 COLLECTIONS = ("husbands",)
 """Examples with fluents that hold sets and lists, of which not everything is decided."""
 
+PARTS = (ROOT / "examples/greenhouse/beds.gl",)
+"""Files without actions, whose declarations are proved where they are imported."""
 
-@pytest.mark.parametrize("path", sorted(ROOT.glob("examples/*/*.gl")), ids=lambda path: path.stem)
+
+@pytest.mark.parametrize(
+    "path", [path for path in sorted(ROOT.glob("examples/*/*.gl")) if path not in PARTS], ids=lambda path: path.stem
+)
 def test_nothing_is_wrong_with_the_examples(path: Path) -> None:
     examined = examine(path, proofs=True)
     assert [finding for finding in examined.findings if finding.severity is not Severity.NOTE] == []
