@@ -157,6 +157,7 @@ class Code(Enum):
     SURPRISE = ("GL115", "a device senses what the theory thinks impossible")
     UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
     TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
+    TOO_LARGE = ("GL118", "a number, a set or a list grows too large")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 

@@ -13,7 +13,7 @@ from typing import TextIO
 
 import click
 
-from golc.diagnostics import DeviceError, Diagnostic, GolcError, ProgramError, UserError
+from golc.diagnostics import DeviceError, Diagnostic, GolcError, LimitError, ProgramError, UserError
 from golc.theory.recursion import EVALUATION
 
 COMMANDS = {
@@ -99,6 +99,9 @@ def _code(error: BaseException) -> int:
             return 130
         case OSError(errno=number, filename=None) if number in UNWRITABLE:
             return _code(DeviceError(f"cannot write the output: {error.strerror}"))
+        case MemoryError():
+            _tell("error: gave up: there is no memory left")
+            return LimitError.exit_code
         case Exception():
             import traceback
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from golc.diagnostics import LimitError
 
 OFTEN = 64
-"""Expanded pairs between two looks at the clock, and at whether the search is still wanted."""
+"""Expanded pairs between two looks at whether the search is still wanted."""
 
 
 class GivenUpSearchError(LimitError):
@@ -52,9 +52,7 @@ class Budget:
         self.expanded += 1
         if self.limits.nodes is not None and self.expanded > self.limits.nodes:
             raise LimitError(f"gave up after {self.limits.nodes} expanded pairs of program and state")
-        if self.expanded % OFTEN:
-            return
-        if self.given_up():
+        if self.expanded % OFTEN == 0 and self.given_up():
             raise GivenUpSearchError(f"given up ({self.expanded} pairs expanded)")
         if self.limits.seconds is not None and self.elapsed > self.limits.seconds:
             raise LimitError(f"gave up after {self.limits.seconds:g} s ({self.expanded} pairs expanded)")

@@ -17,6 +17,9 @@ from golc.theory.types import Value
 
 T = TypeVar("T")
 
+MOST_READS = 500_000
+"""How often one question may look at a slot: what uses a definition twice, which uses another one twice, takes long."""
+
 
 class Case:
     """A situation as far as it is decided: ``cells`` are the slots that were read.
@@ -34,6 +37,8 @@ class Case:
         """What was decided so far, in order: which way, of how many."""
         self.guesses = 0
         """How often it was guessed what the agent knows. One guess may be right; several need not go together."""
+        self.reads = 0
+        """How often a slot was looked at."""
         self._domains = domains
         self._ranges: dict[int, Range] = {}
         self._next = 0
@@ -53,8 +58,15 @@ class Case:
         self.guesses += 1
         return self.choose(2) == 0
 
+    def look(self) -> None:
+        """Count a look at a slot."""
+        self.reads += 1
+        if self.reads > MOST_READS:
+            raise NotDecidedError("it takes too long to evaluate")
+
     def __getitem__(self, slot: int) -> Value:
         slot = int(slot)
+        self.look()
         if slot not in self.cells:
             domain = self._domains[slot]
             match domain:

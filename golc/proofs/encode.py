@@ -52,6 +52,8 @@ from golc.theory.types import number as simplified
 
 MOST_INSTANCES = 20_000
 """How many instances of quantifiers and of calls are written out for one question."""
+MOST_TERMS = 20_000
+"""How many terms one question may have; those of a definition count each time that it is used."""
 
 DEEPEST = 30
 """How many calls of static functions may be open."""
@@ -75,6 +77,7 @@ class Encoder:
         self._read: dict[tuple[str, tuple[Any, ...]], tuple[tuple[Any, ...], Encoded]] = {}
         self._instances = 0
         self._depth = 0
+        self._terms = 0
         self._fresh = itertools.count()
 
     def variable(self, name: str, type_: Type) -> Encoded:
@@ -156,6 +159,9 @@ class Encoder:
 
     def term(self, term: Term, env: Env, read: Read) -> Encoded:
         """A term in the situation in which fluents are read."""
+        self._terms += 1
+        if self._terms > MOST_TERMS:
+            raise NotDecidedError("the formula is too long for a solver")
         match term:
             case Literal(value=value):
                 return self.literal(value)

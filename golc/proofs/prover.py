@@ -90,8 +90,14 @@ class Prover:
     def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, bool]]:
         """Whether what is asked is so, case by case; of many cases some by chance before the rest in order."""
 
+        reads = 0
+
         def ask(case: Case) -> bool:
-            return self._ask(question, case)
+            nonlocal reads
+            case.reads = reads
+            found = self._ask(question, case)
+            reads = case.reads
+            return found
 
         every = explore(domains, ask)
         yield from itertools.islice(every, IN_ORDER)
@@ -116,9 +122,12 @@ class Prover:
         for (name, args), value in found[0].items():
             domains[self.layout.places[name].slot(args)] = (value,)
         domains[self.layout.size :] = [(value,) for value in found[1]]
-        for case, confirmed in itertools.islice(explore(domains, lambda case: self._ask(question, case)), MORE_CASES):
-            if confirmed:
-                return self._witness(question, domains, case)
+        try:
+            for case, confirmed in itertools.islice(self._cases(question, domains), MORE_CASES):
+                if confirmed:
+                    return self._witness(question, domains, case)
+        except NotDecidedError as error:
+            return Undecided(f"{why.reason}; {error}")
         return Undecided(f"{why.reason}; what the solver says is not confirmed")
 
     def _witness(self, question: Question, domains: Sequence[Domain], found: Case) -> Witness:
@@ -206,6 +215,7 @@ class _After:
 
     def __getitem__(self, slot: int) -> Value:
         slot = int(slot)
+        self._case.look()
         if slot not in self._changes:
             return self._case[slot]
         value = self._changes[slot]

@@ -142,14 +142,19 @@ class Clause:
 
     def instance(self, worlds: Worlds, env: tuple[Value, ...]) -> _Instance:
         """The clause for some values, with what it reads and writes."""
-        cases = [(case, dict(answer)) for case, answer in survey(worlds, lambda w: self.changes(w, env))]
-        written = frozenset(slot for _, changes in cases for slot in changes)
-        if all(changes == cases[0][1] for _, changes in cases):
-            return _Instance(self, env, written, frozenset())
-        read = {number for case, _ in cases for number, _ in case}
-        kept = {slot for slot in written if any(slot not in changes for _, changes in cases)}
-        owners = {worlds.owner[slot] for slot in kept if slot in worlds.owner}
-        return _Instance(self, env, written, frozenset(read | owners))
+        # The cases, of which there may be many, are not kept.
+        first = dict(self.changes(View(worlds), env))
+        same, written, always, read = True, {*first}, {*first}, set[int]()
+        for case, answer in survey(worlds, lambda world: self.changes(world, env)):
+            changes = dict(answer)
+            same = same and changes == first
+            written |= changes.keys()
+            always &= changes.keys()
+            read.update([number for number, _ in case])
+        if same:
+            return _Instance(self, env, frozenset(written), frozenset())
+        owners = {worlds.owner[slot] for slot in written - always if slot in worlds.owner}
+        return _Instance(self, env, frozenset(written), frozenset(read | owners))
 
     def _lines(self, cells: Cells) -> list[str]:
         effect, compiler = self.effect, self._compiler

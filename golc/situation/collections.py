@@ -28,8 +28,9 @@ def made(compiler: Compiler, term: Display | Comprehension | Text, cells: Cells,
             return f"frozenset(({''.join(texts)}))" if _is_set(term) else f"({''.join(texts)})"
         case Comprehension():
             inner, clauses = compiler.loops(term.binders, term.where, cells, depth)
-            found = f"[{compiler.expression(term.element, inner, depth)} {clauses}]"
-            return f"{'frozenset' if _is_set(term) else 'tuple'}({found})"
+            kind = "set" if _is_set(term) else "list"
+            gathered = compiler.bind("gathered", guards.gathered(term, kind))
+            return f"{gathered}({compiler.expression(term.element, inner, depth)} {clauses})"
 
 
 def _is_set(term: Term) -> bool:

@@ -2,18 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
+from fractions import Fraction
+from itertools import islice
 
 from golc.theory import errors
 from golc.theory.evaluate import DEPTH
 from golc.theory.order import arranged
 from golc.theory.recursion import EVALUATION, deep_recursion
-from golc.theory.terms import Operation, Quantified, Term
+from golc.theory.terms import Comprehension, Operation, Quantified, Term
 from golc.theory.theory import Static
 from golc.theory.types import Type, Value, show, show_call
 
 MOST_REMEMBERED = 100_000
 """How many values of one static function are kept."""
+LARGEST_BITS = 100_000
+LARGEST = 1 << LARGEST_BITS
+"""No product of numbers reaches it: repeated squaring fills any memory in a few steps."""
+MOST_ELEMENTS = 1_000_000
+"""How many elements may be put together in one list or set."""
 
 
 class Depth:
@@ -156,6 +163,44 @@ def removal(whole: tuple[Value, ...], gone: tuple[Value, ...]) -> tuple[Value, .
     """The elements of a list that do not occur in another one."""
     without = set(gone)
     return tuple([element for element in whole if element not in without])
+
+
+def product(term: Operation) -> Callable[[int, int], int]:
+    """The product of two numbers, unless it has too many digits."""
+
+    def product(left: int, right: int) -> int:
+        found = left * right
+        # Neither is it asked how large the symbols are that stand for all numbers (`golc.proofs`).
+        if type(found) in (int, Fraction) and max(abs(found.numerator), found.denominator) >= LARGEST:
+            raise errors.too_large(term.span, "a number", f"{LARGEST_BITS:,} bits")
+        return found
+
+    return product
+
+
+def joined(term: Operation) -> Callable[[tuple[Value, ...], tuple[Value, ...]], tuple[Value, ...]]:
+    """Two lists as one, unless it is too long."""
+
+    def joined(left: tuple[Value, ...], right: tuple[Value, ...]) -> tuple[Value, ...]:
+        if len(left) + len(right) > MOST_ELEMENTS:
+            raise errors.too_large(term.span, "a list", f"{MOST_ELEMENTS:,} elements")
+        return left + right
+
+    return joined
+
+
+def gathered(term: Comprehension, kind: str) -> Callable[[Iterator[Value]], Collection[Value]]:
+    """The collection of some values, unless it is too long."""
+
+    def gathered(values: Iterator[Value]) -> Collection[Value]:
+        found: Collection[Value] = (
+            frozenset(islice(values, MOST_ELEMENTS)) if kind == "set" else tuple(islice(values, MOST_ELEMENTS))
+        )
+        for _ in values:
+            raise errors.too_large(term.span, f"a {kind}", f"{MOST_ELEMENTS:,} elements")
+        return found
+
+    return gathered
 
 
 def text(type_: Type) -> Callable[[Value], str]:

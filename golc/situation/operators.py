@@ -29,12 +29,16 @@ INFIX = {
     Operator.OR: "or",
     Operator.UNION: "|",
     Operator.DIFFERENCE: "-",
-    Operator.CONCATENATION: "+",
     Operator.ELEMENT: "in",
 }
 CALLS = {Operator.ABSOLUTE: "abs", Operator.MINIMUM: "min", Operator.MAXIMUM: "max", Operator.LENGTH: "len"}
-PARTS = {Operator.FIRST: guards.first, Operator.REST: guards.rest, Operator.INDEX: guards.index}
-"""What takes a list apart, which may not have the part."""
+GUARDED = {
+    Operator.FIRST: guards.first,
+    Operator.REST: guards.rest,
+    Operator.INDEX: guards.index,
+    Operator.CONCATENATION: guards.joined,
+}
+"""What takes a list apart, which may not have the part, or makes a longer one."""
 
 EXACT = {Operator.EQUAL, Operator.DIFFERENT}
 """Operators whose operands may be ``none``."""
@@ -58,8 +62,11 @@ def operation(compiler: Compiler, term: Operation, cells: Cells, depth: int) -> 
             return f"(-{texts[0]})"
         case Operator.REMOVAL:
             return f"{compiler.bind('removal', guards.removal)}({', '.join(texts)})"
-        case _ if op in PARTS:
-            return f"{compiler.bind(op.name.lower(), PARTS[op](term))}({', '.join(texts)})"
+        case _ if op in GUARDED:
+            return f"{compiler.bind(op.name.lower(), GUARDED[op](term))}({', '.join(texts)})"
+        case Operator.MULTIPLY if not any(known_value(arg, cells)[0] for arg in args):
+            product = compiler.bind("product", guards.product(term))
+            return in_one_form(compiler, f"{product}({', '.join(texts)})", term)
         case _ if op in CALLS:
             return f"{CALLS[op]}({', '.join(texts)})"
         case _:

@@ -26,6 +26,9 @@ Assignment: TypeAlias = tuple[tuple[int, World], ...]
 MOST_CASES = 2_000_000
 """How many cases are gone through to answer one question, or kept as rows of one factor."""
 
+LONG = 16
+"""A case that is given by so many factors takes as long as another one, and counts once more for each as many."""
+
 
 class TooManyCasesError(Exception):
     """A question would have to be asked in more cases than can be gone through."""
@@ -164,7 +167,7 @@ def survey(state: State, ask: Callable[[Readable], T]) -> Iterator[tuple[Assignm
             stack.append(_Alternatives(state, assignment, number, iter(state.factors[number].rows[1:])))
             assignment = (*assignment, (number, row))
         yield assignment, answer
-        cases += 1
+        cases += 1 + len(assignment) // LONG
         if cases > MOST_CASES:
             raise TooManyCasesError(MOST_CASES)
         found = None

@@ -88,6 +88,12 @@ def endless(span: Span, what: str) -> ProgramError:
     return ProgramError(Diagnostic(Code.ENDLESS_RECURSION, message, span))
 
 
+def too_large(span: Span, what: str, limit: str) -> ProgramError:
+    """A number or a collection that would fill the memory sooner or later."""
+    message = f"{what} grows too large: golc goes up to {limit}"
+    return ProgramError(Diagnostic(Code.TOO_LARGE, message, span, marker="too large here"))
+
+
 class UndecidedError(ProgramError):
     """The agent does not know what it needs to go on: a dead end of look-ahead."""
 

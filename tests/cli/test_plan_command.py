@@ -9,6 +9,10 @@ from pathlib import Path
 
 import pytest
 
+from golc.cli import invoke
+from golc.diagnostics import LimitError
+from golc.planning.limits import Budget, Limits
+
 ROOT = Path(__file__).parents[2]
 ELEVATOR = str(ROOT / "examples" / "elevator" / "elevator.gl")
 LIFT = str(ROOT / "tests" / "programs" / "lift.gl")
@@ -82,6 +86,20 @@ def test_giving_up_is_not_proving() -> None:
         done = golc("plan", ELEVATOR, "smart" if limit[0] == "--nodes" else "handle(25)", *limit)
         assert done.returncode == 3
         assert done.stderr.startswith("no plan for `")
+
+
+def test_the_clock_is_looked_at_before_each_step_however_long_it_takes() -> None:
+    with pytest.raises(LimitError, match=r"gave up after 0 s \(1 pairs expanded\)"):
+        Budget(Limits(seconds=0)).spend()
+
+
+def test_a_memory_that_is_full_is_a_limit(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    def fill(**options: object) -> None:
+        raise MemoryError
+
+    monkeypatch.setattr("golc.cli.cli.main", fill)
+    assert invoke(["plan"]) == 3
+    assert capsys.readouterr().err == "error: gave up: there is no memory left\n"
 
 
 def test_a_constant_may_be_replaced() -> None:

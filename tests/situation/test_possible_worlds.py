@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 from golc.diagnostics import Findings, ProgramError, Source
 from golc.situation.dynamics import Dynamics
-from golc.situation.worlds import State, Worlds, rebuilt, survey
+from golc.situation.worlds import State, TooManyCasesError, Worlds, choices, rebuilt, survey
 from golc.syntax.parse import parse_file
 from golc.theory.elaborate import elaborate
 from golc.theory.theory import BasicActionTheory
@@ -332,3 +332,12 @@ def test_only_the_cases_that_matter_are_gone_through() -> None:
     state = DYNAMICS.initial()
     asked = [case for case, _ in survey(state, lambda world: world[DYNAMICS.layout.places["spare"].base])]
     assert len(asked) == 3
+
+
+def test_cases_that_are_given_by_many_fluents_count_more(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("golc.situation.worlds.MOST_CASES", 100)
+    state = choices((0,) * 160, dict.fromkeys(range(160), (0, 1)))
+    answers = survey(state, lambda world: [world[slot] for slot in range(160)])
+    assert len(list(itertools.islice(answers, 10))) == 10
+    with pytest.raises(TooManyCasesError):  # of 160 fluents, each case counts eleven times
+        next(answers)
