@@ -61,12 +61,28 @@ def examine(
         return Examined(None, error.diagnostics)
     findings = Findings()
     file = parse_file(source, findings)
-    if file is not None and goal is not None:
-        file = _with_goal(file, goal, findings)
     if file is None:
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
-    file, sources = joined.file, joined.sources
+    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs)
+
+
+def examine_file(
+    file: tree.File,
+    sources: tuple[Source, ...],
+    findings: Findings,
+    constants: Mapping[str, str] | None = None,
+    goal: str | None = None,
+    proofs: bool = False,
+) -> Examined:
+    """What is to be said of a tree whose imports have been joined, wherever it comes from.
+
+    ``sources``: the texts in which its spans lie, that of the domain itself first; ``findings``: what has been found
+    so far, to which the rest is added. The others are as for ``examine``.
+    """
+    if goal is not None:
+        file = _with_goal(file, goal, findings)
+    source = sources[0]
     theory = elaborate(file, source, findings, constants, sources)
     proved = None
     if theory is not None:
