@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from golc.checks import check
+from golc.checks.bricks import review_bricks
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, Span, UserError
 from golc.imports import join
@@ -49,11 +50,16 @@ class Examined:
 
 
 def examine(
-    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None, proofs: bool = False
+    path: str | Path,
+    constants: Mapping[str, str] | None = None,
+    goal: str | None = None,
+    proofs: bool = False,
+    nqc: bool = False,
 ) -> Examined:
     """What is to be said of a domain file, including what it imports.
 
-    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account.
+    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account, with
+    ``nqc`` also what the NQC files of its bricks say.
     """
     try:
         source = read_source(path)
@@ -64,7 +70,7 @@ def examine(
     if file is None:
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
-    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs)
+    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs, nqc)
 
 
 def examine_file(
@@ -74,6 +80,7 @@ def examine_file(
     constants: Mapping[str, str] | None = None,
     goal: str | None = None,
     proofs: bool = False,
+    nqc: bool = False,
 ) -> Examined:
     """What is to be said of a tree whose imports have been joined, wherever it comes from.
 
@@ -93,6 +100,8 @@ def examine_file(
                     findings.add(diagnostic)
         if proofs and not findings.has_errors:
             proved = prove(theory)
+        if nqc:
+            review_bricks(theory, findings)
     found = sorted([*findings.diagnostics, *(proved.findings if proved else ())], key=by_place(sources))
     theory = None if findings.has_errors else theory
     asked, undecided = (proved.asked, proved.undecided) if proved else (0, 0)
