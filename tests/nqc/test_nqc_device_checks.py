@@ -188,5 +188,5 @@ def test_functions_take_one_argument_for_each_of_the_action(workshop: Workshop, 
 def test_an_nqc_file_that_cannot_be_read_is_one_finding(workshop: Workshop) -> None:
     (workshop.folder / "robot.nqc").mkdir()
     path = workshop.write("robot.gl", 'domain d\naction a\nproc control:\n    a\ndevice rcx "robot.nqc":\n    0 a\n')
-    found = examine(path, nqc=True).findings
+    found = examine(path, proofs=True).findings
     assert [(diagnostic.code.code, diagnostic.span.line) for diagnostic in found] == [("GL001", 5)]
