@@ -55,6 +55,4 @@ def report_of(examined: Examined, theory: Theory | None, proofs: bool) -> Report
     found = with_proofs(examined) if proofs else examined
     if examined.theory is not None:
         found = with_behaviours(found, examined.theory)
-    return Report(
-        heed(found, proofs), None if found.theory is None else theory, found.asked, found.undecided
-    )
+    return Report(heed(found, proofs), None if found.theory is None else theory, found.asked, found.undecided)
