@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from golc.checks import check
+from golc.checks.bricks import review_bricks
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
 from golc.imports import join
@@ -54,7 +55,8 @@ class Examined:
 def examine(path: str | Path, constants: Mapping[str, str] | None = None, proofs: bool = False) -> Examined:
     """What is to be said of a domain file, including what it imports.
 
-    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account.
+    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, and what the NQC
+    files of the bricks say.
     """
     try:
         source = read_source(path)
@@ -66,7 +68,9 @@ def examine(path: str | Path, constants: Mapping[str, str] | None = None, proofs
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
     examined = examine_file(joined.file, joined.sources, findings, constants)
-    return with_proofs(examined) if proofs else examined
+    if not proofs or examined.theory is None:
+        return examined
+    return with_behaviours(with_proofs(examined), examined.theory)
 
 
 def examine_file(
@@ -96,15 +100,20 @@ def with_proofs(examined: Examined) -> Examined:
         return examined
     with deep_recursion():
         proved = prove(examined.theory)
-    found = sorted([*examined.findings, *proved.findings], key=by_place(examined.sources))
+    return replace(_with_findings(examined, proved.findings), asked=proved.asked, undecided=proved.undecided)
+
+
+def with_behaviours(examined: Examined, theory: BasicActionTheory) -> Examined:
+    """The same with what the NQC files of the bricks say; ``theory`` is the one examined, which may have errors."""
+    findings = Findings()
+    review_bricks(theory, findings)
+    return _with_findings(examined, findings.diagnostics)
+
+
+def _with_findings(examined: Examined, more: Iterable[Diagnostic]) -> Examined:
+    found = sorted([*examined.findings, *more], key=by_place(examined.sources))
     wrong = any(finding.severity is Severity.ERROR for finding in found)
-    return replace(
-        examined,
-        theory=None if wrong else examined.theory,
-        findings=tuple(found),
-        asked=proved.asked,
-        undecided=proved.undecided,
-    )
+    return replace(examined, theory=None if wrong else examined.theory, findings=tuple(found))
 
 
 def by_place(sources: tuple[Source, ...]) -> Callable[[Diagnostic], tuple[int, int, int, str]]:
