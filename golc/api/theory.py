@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING, Any
 
 from golc.api import acting
 from golc.api.acting import Doing
+from golc.api.contents import as_text, tables
 from golc.api.state import State
 from golc.diagnostics import GolcError, LimitError, counted
 from golc.loading import Examined, theory_of
 from golc.planning.plans import Outcome, Plan
 from golc.program.blame import Blocked
+from golc.situation import worlds
 from golc.situation.dynamics import Dynamics
 from golc.theory.ground import Call, read_procedure
 from golc.theory.queries import Queries
@@ -130,6 +132,17 @@ class Theory:
     def __repr__(self) -> str:
         return f"<Theory {self.name}: {self.counts()}>"
 
+    def __str__(self) -> str:
+        lines = [f"domain {self.name} ({self.path})"]
+        for table in tables(self.elaborated):
+            lines += ["", *as_text(table)]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        from golc.notebook import theory_html
+
+        return theory_html(self)
+
     def counts(self) -> str:
         """``1 fluent, 2 actions, 1 procedure, 0 devices``: how much it declares."""
         parts = (
@@ -168,11 +181,11 @@ class Theory:
         >>> print(golc.load("examples/elevator/elevator.gl").explain("top"))  # doctest: +ELLIPSIS
         const top...
         """
+        from golc.explain import rendering
         from golc.explain.pages import explain
-        from golc.explain.rendering import as_latex, as_text
 
         pages = explain(self.elaborated, name)
-        return as_latex(pages) if latex else as_text(pages)
+        return rendering.as_latex(pages) if latex else rendering.as_text(pages)
 
     # ---- states and actions
 
@@ -182,7 +195,11 @@ class Theory:
 
     def initial(self) -> State:
         """The initial state: one world, or all that the domain leaves possible."""
-        return State(self._dynamics, self._dynamics.initial())
+        return self.state(self._dynamics.initial())
+
+    def state(self, raw: worlds.State) -> State:
+        """A state as the rooms inside golc have it, for users."""
+        return State(self._dynamics, raw)
 
     def possible(self, state: State, *, exogenous: bool = False) -> list[Call]:
         """The ground actions that are known to be possible; with ``exogenous`` those that may happen instead.
@@ -225,7 +242,7 @@ class Theory:
         """
         with deep_recursion(EVALUATION):
             call = acting.call_of(self._dynamics, action)
-            return State(self._dynamics, acting.after(self._dynamics, self._raw(state), call, sensed))
+            return self.state(acting.after(self._dynamics, self._raw(state), call, sensed))
 
     def holds(self, state: State, formula: str) -> bool:
         """Whether a formula is known to be true. The text may use every name that the domain declares."""
