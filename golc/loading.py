@@ -10,6 +10,7 @@ from golc.checks import check
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, Span, UserError
 from golc.imports import join
+from golc.proofs.reachable import Scope
 from golc.syntax import tree
 from golc.syntax.parse import parse_expression, parse_file
 from golc.syntax.text import read_source
@@ -38,7 +39,8 @@ class Examined:
     """A domain file: its theory, or none if it has errors, and all findings in the order of their places.
 
     ``sources``: the texts of it and of what it imports, its own first; none if it cannot be read. ``asked``: how many
-    questions about all its situations were put; ``undecided``: how many of them were not decided.
+    questions about all its situations were put; ``undecided``: how many of them were not decided; ``scope``: which
+    states can be reached, if that was asked.
     """
 
     theory: BasicActionTheory | None
@@ -46,14 +48,20 @@ class Examined:
     asked: int = 0
     undecided: int = 0
     sources: tuple[Source, ...] = ()
+    scope: Scope | None = None
 
 
 def examine(
-    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None, proofs: bool = False
+    path: str | Path,
+    constants: Mapping[str, str] | None = None,
+    goal: str | None = None,
+    proofs: bool = False,
+    reachable: bool = False,
 ) -> Examined:
     """What is to be said of a domain file, including what it imports.
 
-    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account.
+    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account, or
+    all those that are ``reachable``.
     """
     try:
         source = read_source(path)
@@ -64,7 +72,7 @@ def examine(
     if file is None:
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
-    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs)
+    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs, reachable)
 
 
 def examine_file(
@@ -74,6 +82,7 @@ def examine_file(
     constants: Mapping[str, str] | None = None,
     goal: str | None = None,
     proofs: bool = False,
+    reachable: bool = False,
 ) -> Examined:
     """What is to be said of a tree whose imports have been joined, wherever it comes from.
 
@@ -92,11 +101,12 @@ def examine_file(
                 if diagnostic.code is not Code.UNUSED or diagnostic.span.source is source:
                     findings.add(diagnostic)
         if proofs and not findings.has_errors:
-            proved = prove(theory)
+            proved = prove(theory, reachable)
     found = sorted([*findings.diagnostics, *(proved.findings if proved else ())], key=by_place(sources))
     theory = None if findings.has_errors else theory
-    asked, undecided = (proved.asked, proved.undecided) if proved else (0, 0)
-    return Examined(theory, tuple(found), asked, undecided, sources)
+    if proved is None:
+        return Examined(theory, tuple(found), sources=sources)
+    return Examined(theory, tuple(found), proved.asked, proved.undecided, sources, proved.scope)
 
 
 def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:
