@@ -91,7 +91,7 @@ class Obligations:
             return (shown,)
         if witness.way is None:
             return shown, "whether this situation can be reached is not known"
-        steps = ", ".join(f"`{step}`" for step in witness.way)
+        steps = ", ".join(witness.way)
         return shown, f"this is reached by {steps}" if steps else "this is so at first"
 
     def _is_new(self, code: Code, span: Span) -> bool:

@@ -63,7 +63,7 @@ class Scope:
 
 @dataclass(frozen=True)
 class Reached:
-    """A state, and how it was reached: by which action from which state; by none if it is the initial one."""
+    """A state, and how it was reached: by which action, in words, from which state; the initial one by none."""
 
     state: State
     by: str = ""
@@ -155,7 +155,7 @@ class _Search:
         args = tuple([case[slot] for slot in parameters])
         found = [(sensed, _plain(after)) for sensed, after in self._after(state, action, args)]
         call = self.dynamics.call(action.name, tuple([case.value(slot) for slot in parameters])) if found else ""
-        return [(call + sensed, after) for sensed, after in found]
+        return [(f"`{call}`{sensed}", after) for sensed, after in found]
 
     def _after(self, state: State, action: Action, args: Args) -> list[tuple[str, State]]:
         """What an action leads to if it can happen and its effects succeed, each with what is sensed in words."""
