@@ -45,7 +45,11 @@ class Prover:
         """
         question = self._weakening.in_order(question)
         answer = self._explored(question, small)
-        weaker = self._weakening.weaker(question) if isinstance(answer, Undecided) else None
+        if not isinstance(answer, Undecided):
+            return answer
+        weaker = self._weakening.weaker(question)
+        if weaker is None and len(self._coarse.theory.invariants) < len(self.theory.invariants):
+            weaker = question
         if weaker is None or (not weaker.steps and not question.fails):
             return answer
         return None if not weaker.steps or self._coarse.answer(weaker, small=False) is None else answer
