@@ -26,7 +26,7 @@ from golc.theory.terms import Operation, Operator
 from golc.theory.types import REAL, Value
 
 
-def calculated(term: Operation, values: list[Encoded], literal: Callable[[Value], Encoded]) -> Encoded:
+def calculated(term: Operation, values: Sequence[Encoded], literal: Callable[[Value], Encoded]) -> Encoded:
     """What an operation gives; ``literal`` encodes a value. Raises ``NotDecidedError`` for what has no encoding."""
     match term.op:
         case Operator.AND:
@@ -73,7 +73,7 @@ def disjunction(parts: Sequence[Encoded]) -> Encoded:
     return truth(either(*before), both(*oks))
 
 
-def _arithmetic(term: Operation, values: list[Encoded], literal: Callable[[Value], Encoded]) -> Encoded:
+def _arithmetic(term: Operation, values: Sequence[Encoded], literal: Callable[[Value], Encoded]) -> Encoded:
     first = 1 if term.op is Operator.ELEMENT else 0  # what is looked for may be `none`
     ok = both(*[v.ok for v in values], *[negated(equal(value.kind, NONE)) for value in values[first:]])
     numbers = [value.number for value in values]

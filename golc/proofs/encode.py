@@ -44,6 +44,7 @@ from golc.theory.terms import (
     Literal,
     Membership,
     Operation,
+    Operator,
     PossTerm,
     Quantified,
     StaticTerm,
@@ -60,6 +61,9 @@ MOST_TERMS = 10_000
 
 DEEPEST = 30
 """How many calls of static functions may be open."""
+
+COUNTING = {Operator.LENGTH, Operator.REST, Operator.INDEX, Operator.EQUAL, Operator.DIFFERENT}
+"""What tells lists apart by more than what is in them, and which of that comes first."""
 
 TOO_LONG = "the formula is too long for a solver"
 
@@ -134,8 +138,10 @@ class Encoder(Values):
                 return self._quantified(term, env, read)
             case Epistemic():
                 return self._epistemic(term, env, read)
-            case Operation(args=args):
-                return calculated(term, [self.term(arg, env, read) for arg in args], self.literal)
+            case Operation(op=op, args=args):
+                values = tuple([self.term(arg, env, read) for arg in args])
+                self.shortened |= op in COUNTING and _are_counted(values)
+                return calculated(term, values, self.literal)
             case Display(elements=elements):
                 listed = [self.term(element, env, read) for element in elements]
                 return _collection(
@@ -179,7 +185,7 @@ class Encoder(Values):
             element = self.term(term.element, inner, read) if there is not False else Encoded(NONE, 0)
             oks += [has_answer, either(negated(is_one), where.ok), either(negated(there), element.ok)]
             parts += [Part(element, there)] if there is not False else []
-        if "list" in term.type.kinds and any(_is_set(binder) for binder in term.binders):
+        if "list" in term.type.kinds and any(_runs_over(binder, "set") for binder in term.binders):
             raise NotDecidedError("a list is made of a set")
         return _collection(term.type, parts, both(*oks))
 
@@ -228,6 +234,7 @@ class Encoder(Values):
             if applies is not False or ok is not True:
                 cases.append((applies, body))
                 oks.append(both(ok, either(negated(applies), body.ok)))
+        self.shortened |= term.kind in ("count", "sum") and any(_runs_over(binder, "list") for binder in term.binders)
         match term.kind:
             case "exists" | "forall":
                 parts = [_case(term.kind, where, body, ok) for (where, body), ok in zip(cases, oks, strict=True)]
@@ -252,8 +259,14 @@ def _collection(type_: Type, parts: Sequence[Part], ok: Formula) -> Encoded:
     return collection(as_set(parts) if "set" in type_.kinds else Parts(True, tuple(parts)), ok)
 
 
-def _is_set(binder: Binder) -> bool:
-    return binder.within is not None and "set" in binder.within.type.kinds
+def _runs_over(binder: Binder, kind: str) -> bool:
+    return binder.within is not None and kind in binder.within.type.kinds
+
+
+def _are_counted(values: Sequence[Encoded]) -> bool:
+    """Whether there are lists of which it matters how often they have an element; not for one that is empty or not."""
+    lists = [value.parts for value in values if value.parts is not None and value.parts.ordered]
+    return all(parts.all for parts in lists) and any(part.there is not True for parts in lists for part in parts.all)
 
 
 def _case(kind: str, where: Formula, body: Encoded, ok: Formula) -> Encoded:

@@ -48,7 +48,9 @@ def solve(theory: BasicActionTheory, question: Question) -> Found | None:
         return encoder.values(model), [encoder.decoded(each, model) for each in variables]
     # What is impossible without an invariant of which only some situations are looked at is impossible.
     exact = [formula for formula, whole in assumed if whole]
-    if not short and ((model is None and len(exact) == len(assumed)) or _model([wanted, *exact, *encoder.facts]) is None):
+    if not short and (
+        (model is None and len(exact) == len(assumed)) or _model([wanted, *exact, *encoder.facts]) is None
+    ):
         return None
     raise NotDecidedError(f"the solver looks at lists of up to {LONGEST} elements only" if model is None else UNKNOWN)
 

@@ -41,11 +41,15 @@ LONGEST = 4
 """How many elements lists have, and sets of elements without end, that are looked at."""
 
 
+MOST_ONCE = 6
+"""Lists of so many possible elements are long enough to have each of them."""
+
+
 class Values:
     """Values of one theory. Raises ``NotDecidedError`` for what it has no encoding for.
 
     ``facts`` are formulas that are true in every situation: the unknown values are of their types. ``shortened``: some
-    situations were left out, with lists that are longer than ``LONGEST``.
+    situations that matter were left out, with lists that are longer than ``LONGEST``.
     """
 
     def __init__(self, theory: BasicActionTheory) -> None:
@@ -93,10 +97,13 @@ class Values:
                 for index, value in enumerate(type_.element.values)
             ]
             return Encoded(kind, 0, parts=Parts(False, tuple(parts)))
-        self.shortened = True
+        # Who only asks what is in a list, and which comes first, sees no difference to one that has each element once.
+        once = type_.kind == "list" and type_.element.finite and size(type_.element) <= MOST_ONCE
+        self.shortened |= not once
+        longest = max(LONGEST, size(type_.element)) if once else LONGEST
         length = z3.Function(f"{name} length", *sorts, z3.IntSort())(*places)
-        self.facts.append(both(length >= 0, length <= LONGEST))
-        elements = [self.of_type(f"{name} {index}", type_.element, places) for index in range(LONGEST)]
+        self.facts.append(both(length >= 0, length <= longest))
+        elements = [self.of_type(f"{name} {index}", type_.element, places) for index in range(longest)]
         there = [Part(element, length > index) for index, element in enumerate(elements)]
         return Encoded(kind, 0, parts=Parts(type_.kind == "list", tuple(there)))
 
