@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import fields
-from functools import cache
 
 from golc.diagnostics import Code
 from golc.embed.errors import refused
@@ -46,10 +45,6 @@ def check_depth(declaration: tree.Declaration) -> None:
 
 
 def _parts(node: tree.Node) -> Iterator[object]:
-    for name in _names(type(node)):
-        yield getattr(node, name)
-
-
-@cache
-def _names(kind: type[tree.Node]) -> tuple[str, ...]:
-    return tuple(field.name for field in fields(kind) if field.name != "span")
+    for field in fields(node):
+        if field.name != "span":
+            yield getattr(node, field.name)

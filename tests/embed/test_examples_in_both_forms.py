@@ -12,9 +12,10 @@ from pathlib import Path
 import pytest
 
 from golc.cli import invoke
+from golc.diagnostics import Findings
 from golc.embed.modules import read_theory
 from golc.loading import load
-from golc.syntax.parse import Findings, parse_file
+from golc.syntax.parse import parse_file
 from golc.syntax.text import read_source
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
