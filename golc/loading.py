@@ -21,15 +21,19 @@ GOAL = "<goal>"
 """The name of the goal that a formula from outside the file becomes; no declaration can have it."""
 
 
-def load(path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None) -> BasicActionTheory:
+def load(
+    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None, trust: bool = True
+) -> BasicActionTheory:
     """The theory of a domain file; ``constants`` replace consts of the file, name to text (``-D``).
 
-    ``goal`` is a formula that becomes one more goal, under the name ``GOAL``. Raises ``UserError`` with every error if
-    there is one; warnings are not mentioned.
+    ``goal`` is a formula that becomes one more goal, under the name ``GOAL``. Python code that the file names is
+    executed when a function of it is needed, which may be now, for a constant; without ``trust`` never, and what needs
+    it fails. Raises ``UserError`` with every error if there is one; warnings are not mentioned.
     """
-    examined = examine(path, constants, goal)
+    examined = examine(path, constants, goal, trust=trust)
     if examined.theory is None:
-        raise UserError(*[finding for finding in examined.findings if finding.severity is Severity.ERROR])
+        errors = [finding for finding in examined.findings if finding.severity is Severity.ERROR]
+        raise UserError(*(errors or examined.findings))
     return examined.theory
 
 
@@ -49,11 +53,16 @@ class Examined:
 
 
 def examine(
-    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None, proofs: bool = False
+    path: str | Path,
+    constants: Mapping[str, str] | None = None,
+    goal: str | None = None,
+    proofs: bool = False,
+    trust: bool = False,
 ) -> Examined:
     """What is to be said of a domain file, including what it imports.
 
-    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account.
+    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account. Python
+    code that the file names is executed only with ``trust``.
     """
     try:
         source = read_source(path)
@@ -64,7 +73,7 @@ def examine(
     if file is None:
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
-    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs)
+    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs, trust)
 
 
 def examine_file(
@@ -74,6 +83,7 @@ def examine_file(
     constants: Mapping[str, str] | None = None,
     goal: str | None = None,
     proofs: bool = False,
+    trust: bool = False,
 ) -> Examined:
     """What is to be said of a tree whose imports have been joined, wherever it comes from.
 
@@ -83,7 +93,7 @@ def examine_file(
     if goal is not None:
         file = _with_goal(file, goal, findings)
     source = sources[0]
-    theory = elaborate(file, source, findings, constants, sources)
+    theory = elaborate(file, source, findings, constants, sources, trust)
     proved = None
     if theory is not None:
         with deep_recursion():

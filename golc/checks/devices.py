@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
+from golc.checks.host import check_host
 from golc.diagnostics import Code, Findings, Label, Span, UserError
 from golc.nqc.actionmap import ActionMap, Entry
 from golc.nqc.behaviours import check_forms
@@ -53,6 +54,9 @@ def check_devices(theory: BasicActionTheory, findings: Findings) -> None:
         return
     sound = [device for device in theory.devices if _check_settings(device, findings)]
     bricks = [number_device(theory, device, findings) for device in theory.devices if device.kind == RCX]
+    for device in theory.devices:
+        if device.kind == "host":
+            check_host(theory, device, findings)
     _check_implicit(theory, findings)
     _check_done(theory, bricks, findings)
     _check_answers(theory, findings)

@@ -38,6 +38,7 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 )
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
+@click.option("--trust", is_flag=True, help="Execute the Python code that the files name, where a value depends on it.")
 @click.option(
     "--select", multiple=True, metavar="CODES", callback=_starts, help="Only findings whose codes begin so: GL0,GL041."
 )
@@ -51,6 +52,7 @@ def command(
     form: str,
     strict: bool,
     no_proofs: bool,
+    trust: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
     constants: Mapping[str, str],
@@ -73,7 +75,7 @@ def command(
     findings: list[Diagnostic] = []
     asked = undecided = 0
     for file in files:
-        examined = examine(file, constants, proofs=not no_proofs)
+        examined = examine(file, constants, proofs=not no_proofs, trust=trust)
         found = [finding for finding in heed(examined, not no_proofs) if selection.wants(finding.code)]
         findings.extend(found)
         asked += examined.asked

@@ -12,11 +12,12 @@ from golc.diagnostics import ProgramError
 from golc.proofs.cases import Case, explore, sample
 from golc.proofs.domains import Domain, Some, domain
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Undecided, Witness
-from golc.proofs.symbols import NotDecidedError, Range
+from golc.proofs.symbols import NeedsPythonError, NotDecidedError, Range
 from golc.proofs.weaken import Weakening
 from golc.situation.branching import Clause, Options
 from golc.situation.compile import Cell, Compiler
 from golc.situation.layout import Layout
+from golc.theory.errors import NotExecutedError
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory
@@ -81,6 +82,8 @@ class Prover:
                 if number >= last:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
+        except NeedsPythonError as error:
+            return Undecided(str(error), error.help)
         except NotDecidedError as error:
             undecided = Undecided(str(error))
         if best is not None:
@@ -154,6 +157,8 @@ class Prover:
             for step in question.steps:
                 if not self._succeeds(step, case):
                     return False
+        except NotExecutedError as error:
+            raise NeedsPythonError(error.why) from None
         except ProgramError:
             fails = True
         return fails is question.fails and self._is_assumed(case)
@@ -174,6 +179,8 @@ class Prover:
         """Whether the invariants hold in a case; one that has no value there does not."""
         try:
             return all(self._function(Asked(invariant.body))(case) for invariant in self._assumed)
+        except NotExecutedError as error:
+            raise NeedsPythonError(error.why) from None
         except ProgramError:
             return False
 

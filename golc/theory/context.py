@@ -15,6 +15,7 @@ from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Source
 from golc.syntax import tree
 from golc.theory.closed import Closed
 from golc.theory.declare import Declared
+from golc.theory.python_file import PythonFiles
 from golc.theory.scope import Entry, Names
 from golc.theory.terms import Literal
 from golc.theory.theory import Constant, Definition, Parameter, Static
@@ -47,7 +48,8 @@ class Constants(Protocol):
 
 @dataclass
 class Context:
-    """The state of an elaboration. ``resolvers`` and ``constants`` come from the rooms that know how."""
+    """The state of an elaboration. ``resolvers`` and ``constants`` come from the rooms that know how;
+    ``python`` has the files that it may call."""
 
     source: Source
     declared: Declared
@@ -55,9 +57,12 @@ class Context:
     overrides: Mapping[str, str]
     resolvers: Mapping[str, Resolver]
     constants: Constants
+    python: PythonFiles
     device_names: tuple[str, ...] = ()
     inline_types: dict[int, Type] = field(default_factory=dict)
     """The enumerations that stand in place of a type's name and declare their symbols, by the identity of the node."""
+    gaps: bool = False
+    """Whether a value is missing that nothing is wrong with: it would take Python code that is not executed."""
     situational: dict[str, bool] = field(default_factory=dict)
     """Whether a definition depends on the situation, as far as somebody has asked."""
     _resolved: dict[tuple[str, Entry], Resolved] = field(default_factory=dict)

@@ -26,6 +26,7 @@ from golc.theory.elaborate_devices import device_name, devices
 from golc.theory.elaborate_knowledge import check_initially, initially
 from golc.theory.elaborate_prunes import prunes
 from golc.theory.elaborate_scenarios import scenarios
+from golc.theory.python_file import PythonFiles
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
@@ -50,11 +51,13 @@ def elaborate(
     findings: Findings,
     constants: Mapping[str, str] | None = None,
     sources: Sequence[Source] = (),
+    trust: bool = False,
 ) -> BasicActionTheory | None:
     """The theory that a file describes, or None if it has errors; every finding is added to ``findings``.
 
     ``constants`` are values of consts as texts, which replace those in the file (``-D``). ``sources`` are all sources
-    of a file with imports, which have been joined. If there are errors among
+    of a file with imports, which have been joined. ``trust``: Python code may be executed; without it there is no
+    theory, only notes, if a value in its declarations takes that. If there are errors among
     ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
     """
     assumed: frozenset[str] = frozenset()
@@ -66,7 +69,7 @@ def elaborate(
     theory = None
     try:
         with deep_recursion():
-            theory = _elaborate(file, source, found, constants or {}, assumed)
+            theory = _elaborate(file, source, found, constants or {}, assumed, trust)
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
@@ -94,10 +97,15 @@ def _unread(file: tree.File, source: Source) -> frozenset[str]:
 
 
 def _elaborate(
-    file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str], assumed: frozenset[str]
-) -> BasicActionTheory:
+    file: tree.File,
+    source: Source,
+    findings: Findings,
+    constants: Mapping[str, str],
+    assumed: frozenset[str],
+    trust: bool,
+) -> BasicActionTheory | None:
     declared = declare(file, findings, assumed)
-    context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value)
+    context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value, PythonFiles(trust))
     blocks = [node for node in file.declarations if isinstance(node, tree.Device)]
     context.device_names = tuple([device_name(node) for node in blocks])
     values.check_overrides(context)
@@ -123,11 +131,12 @@ def _elaborate(
         scenarios(context, [node for node in file.declarations if isinstance(node, tree.Scenario)]),
         initially(context, [node for node in file.declarations if isinstance(node, tree.Initially)]),
         prunes(context, [node for node in file.declarations if isinstance(node, tree.Prune | tree.PruneAfter)]),
+        context.python,
     )
     _check_circles(context, theory)
     check_initially(context, theory)
     context.finish()
-    return theory
+    return None if context.gaps else theory
 
 
 class _Builder:
@@ -155,7 +164,7 @@ class _Builder:
                 _keep(self.constants, entry, context.constant(entry))
             case Kind.TYPE:
                 _keep(self.types, entry, context.type(entry))
-            case Kind.STATIC:
+            case Kind.STATIC | Kind.EXTERN:
                 _keep(self.statics, entry, context.static(entry))
             case Kind.FLUENT:
                 _keep(self.fluents, entry, actions.fluent(context, entry))
@@ -216,7 +225,7 @@ def _signature(context: Context, entry: Entry) -> Signature | None:
     match entry.kind:
         case Kind.FLUENT:
             return actions.fluent_signature(context, entry)
-        case Kind.STATIC:
+        case Kind.STATIC | Kind.EXTERN:
             return values.static_signature(context, entry)
         case Kind.DEFINITION | Kind.GOAL | Kind.INVARIANT:
             return actions.definition_signature(context, entry)

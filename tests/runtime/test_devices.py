@@ -16,7 +16,8 @@ from golc.runtime.devices.base import Device, Router
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, build_devices
 from golc.runtime.devices.desk import Desk
-from golc.runtime.devices.host import Host, load_module
+from golc.runtime.devices.host import Host
+from golc.theory.python_file import PythonError, PythonFile
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
@@ -299,8 +300,8 @@ def test_a_failure_in_a_file_named_by_a_relative_path_has_its_line(
     monkeypatch.chdir(tmp_path)
     Path("broken.py").write_text("x = 1\nraise ValueError('no')\n")
 
-    with pytest.raises(DeviceError, match=r"broken\.py:2: ValueError: no"):
-        load_module(Path("broken.py"))
+    with pytest.raises(PythonError, match=r"broken\.py:2: ValueError: no"):
+        PythonFile(Path("broken.py"), trusted=True).function("f")
 
 
 def test_an_interrupt_of_the_run_passes_through_a_function(devices: Devices) -> None:
@@ -313,11 +314,10 @@ def test_an_interrupt_of_the_run_passes_through_a_function(devices: Devices) -> 
 @pytest.mark.parametrize(
     ("python", "message"),
     [
-        (None, "cannot read the Python file"),
-        ("def see(:", "loading helpers.py failed at"),
-        ("import nothing_of_this_name", "No module named 'nothing_of_this_name'"),
-        (HELPERS.replace("def see", "def sees"), "has no function `see`"),
-        (HELPERS.replace("def see", "measure = 3\ndef see").replace("def measure", "def m"), "`measure` in"),
+        (None, "there is no such file"),
+        ("from nothing_of_this_name import *", "No module named 'nothing_of_this_name'"),
+        ("from math import *\n" + HELPERS.replace("def see", "def sees"), "has no function `see`"),
+        (HELPERS.replace("def measure", "measure = int('3')\ndef m"), "`measure` in"),
     ],
 )
 def test_a_file_that_cannot_be_used_is_told_when_the_run_begins(
@@ -332,7 +332,7 @@ def test_a_file_that_cannot_be_used_is_told_when_the_run_begins(
 
 
 def test_a_misspelt_function_is_proposed(devices: Devices) -> None:
-    host = devices(HOST, HELPERS.replace("def see", "def sees"))[0]
+    host = devices(HOST, "from math import *\n" + HELPERS.replace("def see", "def sees"))[0]
 
     with pytest.raises(DeviceError) as failure:
         host.open()
