@@ -3,34 +3,34 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from golc.checks import check
 from golc.checks.proofs import prove
-from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, Span, UserError
+from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
 from golc.imports import join
 from golc.syntax import tree
-from golc.syntax.parse import parse_expression, parse_file
+from golc.syntax.parse import parse_file
 from golc.syntax.text import read_source
 from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
-GOAL = "<goal>"
-"""The name of the goal that a formula from outside the file becomes; no declaration can have it."""
 
-
-def load(
-    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None, trust: bool = True
-) -> BasicActionTheory:
+def load(path: str | Path, constants: Mapping[str, str] | None = None, trust: bool = True) -> BasicActionTheory:
     """The theory of a domain file; ``constants`` replace consts of the file, name to text (``-D``).
 
-    ``goal`` is a formula that becomes one more goal, under the name ``GOAL``. Python code that the file names is
-    executed when a function of it is needed, which may be now, for a constant; without ``trust`` never, and what needs
-    it fails. Raises ``UserError`` with every error if there is one; warnings are not mentioned.
+    Python code that the file names is executed when a function of it is needed, which may be now, for a constant;
+    without ``trust`` never, and what needs it fails. Raises ``UserError`` with every error if there is one; warnings
+    are not mentioned.
     """
-    examined = examine(path, constants, goal, trust=trust)
+    return theory_of(examine(path, constants, trust=trust))
+
+
+def theory_of(examined: Examined) -> BasicActionTheory:
+    """The theory of what was examined; raises ``UserError`` with every error if there is one, or with what keeps its
+    constants from being worked out."""
     if examined.theory is None:
         errors = [finding for finding in examined.findings if finding.severity is Severity.ERROR]
         raise UserError(*(errors or examined.findings))
@@ -41,8 +41,10 @@ def load(
 class Examined:
     """A domain file: its theory, or none if it has errors, and all findings in the order of their places.
 
-    ``sources``: the texts of it and of what it imports, its own first; none if it cannot be read. ``asked``: how many
-    questions about all its situations were put; ``undecided``: how many of them were not decided.
+    There is none, either, if a constant would take Python code that is not executed. ``sources``: the texts of it and of
+    what it imports, its own first; none if it cannot be read. ``file``: the tree, joined with those of what it imports;
+    none if there is none. ``constants``: what replaces consts of the file. ``asked``: how many questions about all its
+    situations were put; ``undecided``: how many of them were not decided.
     """
 
     theory: BasicActionTheory | None
@@ -50,19 +52,17 @@ class Examined:
     asked: int = 0
     undecided: int = 0
     sources: tuple[Source, ...] = ()
+    file: tree.File | None = None
+    constants: Mapping[str, str] = field(default_factory=dict)
 
 
 def examine(
-    path: str | Path,
-    constants: Mapping[str, str] | None = None,
-    goal: str | None = None,
-    proofs: bool = False,
-    trust: bool = False,
+    path: str | Path, constants: Mapping[str, str] | None = None, proofs: bool = False, trust: bool = False
 ) -> Examined:
     """What is to be said of a domain file, including what it imports.
 
-    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account. Python
-    code that the file names is executed only with ``trust``.
+    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account. Python code that the
+    file names is executed only with ``trust``.
     """
     try:
         source = read_source(path)
@@ -73,7 +73,8 @@ def examine(
     if file is None:
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
-    return examine_file(joined.file, joined.sources, findings, constants, goal, proofs, trust)
+    examined = examine_file(joined.file, joined.sources, findings, constants, trust)
+    return with_proofs(examined) if proofs else examined
 
 
 def examine_file(
@@ -81,47 +82,45 @@ def examine_file(
     sources: tuple[Source, ...],
     findings: Findings,
     constants: Mapping[str, str] | None = None,
-    goal: str | None = None,
-    proofs: bool = False,
     trust: bool = False,
 ) -> Examined:
     """What is to be said of a tree whose imports have been joined, wherever it comes from.
 
     ``sources``: the texts in which its spans lie, that of the domain itself first; ``findings``: what has been found
-    so far, to which the rest is added. The others are as for ``examine``.
+    so far, to which the rest is added; ``constants`` and ``trust`` as for ``examine``.
     """
-    if goal is not None:
-        file = _with_goal(file, goal, findings)
-    source = sources[0]
+    source, constants = sources[0], constants or {}
     theory = elaborate(file, source, findings, constants, sources, trust)
-    proved = None
     if theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):
                 # What an imported file declares need not be used by every file that imports it.
                 if diagnostic.code is not Code.UNUSED or diagnostic.span.source is source:
                     findings.add(diagnostic)
-        if proofs and not findings.has_errors:
-            proved = prove(theory)
-    found = sorted([*findings.diagnostics, *(proved.findings if proved else ())], key=by_place(sources))
+    found = tuple(sorted(findings.diagnostics, key=by_place(sources)))
     theory = None if findings.has_errors else theory
-    asked, undecided = (proved.asked, proved.undecided) if proved else (0, 0)
-    return Examined(theory, tuple(found), asked, undecided, sources)
+    return Examined(theory, found, sources=sources, file=file, constants=constants)
 
 
-def _with_goal(file: tree.File, text: str, findings: Findings) -> tree.File:
-    source = Source(GOAL, text)
-    condition = parse_expression(source, findings)
-    if condition is None:
-        return file
-    span = Span(source, 0, len(text))
-    goal = tree.Goal(tree.Ident(GOAL, span=span), condition, span=span)
-    return replace(file, declarations=(*file.declarations, goal))
+def with_proofs(examined: Examined) -> Examined:
+    """The same with what takes all situations into account; nothing more where there is no theory."""
+    if examined.theory is None:
+        return examined
+    with deep_recursion():
+        proved = prove(examined.theory)
+    found = sorted([*examined.findings, *proved.findings], key=by_place(examined.sources))
+    wrong = any(finding.severity is Severity.ERROR for finding in found)
+    return replace(
+        examined,
+        theory=None if wrong else examined.theory,
+        findings=tuple(found),
+        asked=proved.asked,
+        undecided=proved.undecided,
+    )
 
 
 def by_place(sources: tuple[Source, ...]) -> Callable[[Diagnostic], tuple[int, int, int, str]]:
-    """A key that orders findings by file and place: what is wrong with the command line (``-D``) comes first, a goal
-    from there last."""
+    """A key that orders findings by file and place: what is wrong with the command line (``-D``) comes first."""
     ranks = {id(source): rank for rank, source in enumerate(sources)}
 
     def place(diagnostic: Diagnostic) -> tuple[int, int, int, str]:

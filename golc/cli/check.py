@@ -11,8 +11,8 @@ from golc.cli.common import Console, console_options, constants_option
 from golc.diagnostics import counted
 
 if TYPE_CHECKING:
+    from golc.api.theory import Theory
     from golc.diagnostics import Diagnostic
-    from golc.theory.theory import BasicActionTheory
 
 LINES = ("text", "github")
 """The formats that need not wait for the last file."""
@@ -66,24 +66,23 @@ def command(
     golc check examples/delivery/delivery.gl
     golc check --strict -D floors=12 elevator.gl
     """
+    from golc.api.loading import check
     from golc.diagnostics import Severity
-    from golc.loading import examine
-    from golc.reporting.ignores import heed
     from golc.reporting.selection import Selection
 
     selection = Selection(select, ignore)
     findings: list[Diagnostic] = []
     asked = undecided = 0
     for file in files:
-        examined = examine(file, constants, proofs=not no_proofs, trust=trust)
-        found = [finding for finding in heed(examined, not no_proofs) if selection.wants(finding.code)]
+        report = check(file, constants, proofs=not no_proofs, trust=trust)
+        found = [finding for finding in report.findings if selection.wants(finding.code)]
         findings.extend(found)
-        asked += examined.asked
-        undecided += examined.undecided
+        asked += report.asked
+        undecided += report.undecided
         if form in LINES:
             _write(console, found, form)
         if console.verbosity > 0:
-            console.err(f"{file}: {_contents(examined.theory)}")
+            console.err(f"{file}: {_contents(report.theory)}")
     errors = sum(finding.severity is Severity.ERROR for finding in findings)
     warnings = sum(finding.severity is Severity.WARNING for finding in findings)
     if form not in LINES:
@@ -119,13 +118,5 @@ def _summary(files: int, errors: int, warnings: int, undecided: int) -> str:
     return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}{open_}"
 
 
-def _contents(theory: BasicActionTheory | None) -> str:
-    if theory is None:
-        return "not a theory"
-    parts = (
-        (theory.fluents, "fluent"),
-        (theory.actions, "action"),
-        (theory.procedures, "procedure"),
-        (theory.devices, "device"),
-    )
-    return f"domain {theory.name} with " + ", ".join(counted(len(part), what) for part, what in parts)
+def _contents(theory: Theory | None) -> str:
+    return "not a theory" if theory is None else f"domain {theory.name} with {theory.counts()}"

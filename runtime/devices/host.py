@@ -9,7 +9,7 @@ from pathlib import Path
 
 from golc.diagnostics import DeviceError
 from golc.runtime.devices.base import Args, Bindings, Device, translated
-from golc.theory.border import golc_value
+from golc.theory.foreign import golc_value
 from golc.theory.ground import describe
 from golc.theory.python_file import Function, PythonError
 from golc.theory.theory import BasicActionTheory, Binding, ByCall
