@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
 from golc.checks import check
+from golc.checks.bricks import review_bricks
+from golc.checks.hosts import review_hosts
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
-from golc.imports import join
+from golc.imports import Joined, join
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_source
@@ -17,15 +20,21 @@ from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
+if TYPE_CHECKING:
+    from golc.embed.theory import Theory, Written
 
-def load(path: str | Path, constants: Mapping[str, str] | None = None, trust: bool = True) -> BasicActionTheory:
-    """The theory of a domain file; ``constants`` replace consts of the file, name to text (``-D``).
+Domain: TypeAlias = "str | Path | Theory"
+"""Where a theory comes from: the path of a file, which is Python if it ends in ``.py``, or an object of Python."""
 
-    Python code that the file names is executed when a function of it is needed, which may be now, for a constant;
-    without ``trust`` never, and what needs it fails. Raises ``UserError`` with every error if there is one; warnings
-    are not mentioned.
+
+def load(domain: Domain, constants: Mapping[str, str] | None = None, trust: bool = True) -> BasicActionTheory:
+    """The theory of a domain; ``constants`` replace consts of the file, name to text (``-D``).
+
+    Python code that the domain names (``extern``) is executed when a function of it is needed, which may be now, for a
+    constant; without ``trust`` never, and what needs it fails. Raises ``UserError`` with every error if there is one;
+    warnings are not mentioned.
     """
-    return theory_of(examine(path, constants, trust=trust))
+    return theory_of(examine(domain, constants, trust=trust))
 
 
 def theory_of(examined: Examined) -> BasicActionTheory:
@@ -41,10 +50,10 @@ def theory_of(examined: Examined) -> BasicActionTheory:
 class Examined:
     """A domain file: its theory, or none if it has errors, and all findings in the order of their places.
 
-    There is none, either, if a constant would take Python code that is not executed. ``sources``: the texts of it and of
-    what it imports, its own first; none if it cannot be read. ``file``: the tree, joined with those of what it imports;
-    none if there is none. ``constants``: what replaces consts of the file. ``asked``: how many questions about all its
-    situations were put; ``undecided``: how many of them were not decided.
+    There is none, either, if a constant would take Python code that is not executed.
+    ``sources``: the texts of it and of what it imports, its own first; none if it cannot be read. ``file``: the tree,
+    joined with those of what it imports; none if there is none. ``constants``: what replaces consts of the file.
+    ``asked``: how many questions about all its situations were put; ``undecided``: how many of them were not decided.
     """
 
     theory: BasicActionTheory | None
@@ -57,24 +66,51 @@ class Examined:
 
 
 def examine(
-    path: str | Path, constants: Mapping[str, str] | None = None, proofs: bool = False, trust: bool = False
+    domain: Domain, constants: Mapping[str, str] | None = None, proofs: bool = False, trust: bool = False
 ) -> Examined:
-    """What is to be said of a domain file, including what it imports.
+    """What is to be said of a domain, including what it imports.
 
-    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account. Python code that the
-    file names is executed only with ``trust``.
+    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, and what the files
+    of the devices say. Python code that the domain names (``extern``) is executed only with ``trust``.
     """
-    try:
-        source = read_source(path)
-    except UserError as error:
-        return Examined(None, error.diagnostics)
     findings = Findings()
+    try:
+        joined = _read(domain, findings)
+    except UserError as error:
+        sources = _sources_of(error.diagnostics)
+        return Examined(None, tuple(sorted(error.diagnostics, key=by_place(sources))), sources=sources)
+    examined = examine_file(joined.file, joined.sources, findings, constants, trust)
+    if not proofs or examined.theory is None:
+        return examined
+    return with_behaviours(with_proofs(examined), examined.theory)
+
+
+def _read(domain: Domain, findings: Findings) -> Joined:
+    """The tree of a domain, joined with what it imports; raises ``UserError`` if there is none."""
+    if not isinstance(domain, (str, Path)):
+        return _join_written(domain.written(), findings)
+    if Path(domain).suffix == ".py":
+        from golc.embed.modules import read_theory
+
+        return _join_written(read_theory(domain), findings)
+    source = read_source(domain)
     file = parse_file(source, findings)
     if file is None:
-        return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
-    joined = join(file, source, findings)
-    examined = examine_file(joined.file, joined.sources, findings, constants, trust)
-    return with_proofs(examined) if proofs else examined
+        raise UserError(*findings.diagnostics)
+    return join(file, source, findings)
+
+
+def _join_written(written: Written, findings: Findings) -> Joined:
+    """The tree of a theory in Python, joined with what it imports."""
+    for diagnostic in written.findings.diagnostics:
+        findings.add(diagnostic)
+    joined = join(written.file, written.sources[0], findings)
+    return Joined(joined.file, (*written.sources, *joined.sources[1:]))
+
+
+def _sources_of(diagnostics: tuple[Diagnostic, ...]) -> tuple[Source, ...]:
+    """The texts that some findings are about; none of a file that cannot be read."""
+    return tuple({id(each.span.source): each.span.source for each in diagnostics if each.span.source.text}.values())
 
 
 def examine_file(
@@ -108,15 +144,21 @@ def with_proofs(examined: Examined) -> Examined:
         return examined
     with deep_recursion():
         proved = prove(examined.theory)
-    found = sorted([*examined.findings, *proved.findings], key=by_place(examined.sources))
+    return replace(_with_findings(examined, proved.findings), asked=proved.asked, undecided=proved.undecided)
+
+
+def with_behaviours(examined: Examined, theory: BasicActionTheory) -> Examined:
+    """The same with what the files of the devices say; ``theory`` is the one examined, which may have errors."""
+    findings = Findings()
+    review_bricks(theory, findings)
+    review_hosts(theory, findings)
+    return _with_findings(examined, findings.diagnostics)
+
+
+def _with_findings(examined: Examined, more: Iterable[Diagnostic]) -> Examined:
+    found = sorted([*examined.findings, *more], key=by_place(examined.sources))
     wrong = any(finding.severity is Severity.ERROR for finding in found)
-    return replace(
-        examined,
-        theory=None if wrong else examined.theory,
-        findings=tuple(found),
-        asked=proved.asked,
-        undecided=proved.undecided,
-    )
+    return replace(examined, theory=None if wrong else examined.theory, findings=tuple(found))
 
 
 def by_place(sources: tuple[Source, ...]) -> Callable[[Diagnostic], tuple[int, int, int, str]]:

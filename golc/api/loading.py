@@ -3,34 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from pathlib import Path
 
 from golc.api.report import Report, report_of
 from golc.api.theory import Theory
-from golc.loading import examine
+from golc.loading import Domain, examine
 
 
-def load(path: str | Path, constants: Mapping[str, str] | None = None, *, trust: bool = True) -> Theory:
-    """The theory of a domain file and of what it imports.
+def load(domain: Domain, constants: Mapping[str, str] | None = None, *, trust: bool = True) -> Theory:
+    """The theory of a domain file and of what it imports; a file that ends in ``.py`` is run.
 
-    ``constants`` replace consts of the file, name to text, as ``-D`` does. Python code that the file names is
-    executed when a function of it is needed, which may be now, for a constant; without ``trust`` never, and what needs
-    it fails. Raises ``UserError`` with every error of the file if there is one; warnings are for ``check``.
+    A theory that was built in this program with ``golc.embed`` can stand in place of a path.
+    ``constants`` replace consts of the file, name to text, as ``-D`` does. Python code that the domain names
+    (``extern``) is executed when a function of it is needed, which may be now, for a constant; without ``trust`` never,
+    and what needs it fails. Raises ``UserError`` with every error of the file if there is one; warnings are for
+    ``check``.
 
     >>> import golc
     >>> golc.load("examples/elevator/elevator.gl", {"top": "9"})
     <Theory elevator: 2 fluents, 5 actions, 9 procedures, 1 device>
     """
-    return Theory(examine(path, constants, trust=trust))
+    return Theory(examine(domain, constants, trust=trust))
 
 
 def check(
-    path: str | Path, constants: Mapping[str, str] | None = None, *, proofs: bool = True, trust: bool = False
+    domain: Domain, constants: Mapping[str, str] | None = None, *, proofs: bool = True, trust: bool = False
 ) -> Report:
-    """What is to be said of a domain file, which may be wrong or not even there.
+    """What is to be said of a domain, as for ``load``, which may be wrong or not even there.
 
     ``constants`` are as for ``load``. Without ``proofs``, what takes all situations into account is left out.
-    Python code that the file names is executed only with ``trust``; without it, what depends on it is a note.
+    Python code that the domain names (``extern``) is executed only with ``trust``; without it, what depends on it is
+    not worked out, and notes say so.
 
     >>> import golc
     >>> golc.check("examples/elevator/elevator.gl")
@@ -38,5 +40,5 @@ def check(
     >>> [(finding.code.code, finding.message) for finding in golc.check("missing.gl").findings]
     [('GL001', 'cannot read `missing.gl`: there is no such file')]
     """
-    examined = examine(path, constants, trust=trust)
+    examined = examine(domain, constants, trust=trust)
     return report_of(examined, None if examined.theory is None else Theory(examined), proofs)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from golc.diagnostics import Diagnostic, Severity, counted
-from golc.loading import Examined, with_proofs
+from golc.loading import Examined, with_behaviours, with_proofs
 from golc.rendering import render
 from golc.reporting.ignores import heed
 
@@ -52,8 +52,7 @@ class Report:
 
 def report_of(examined: Examined, theory: Theory | None, proofs: bool) -> Report:
     """The report about what was examined; with ``proofs`` also what takes all situations into account."""
-    if proofs:
-        examined = with_proofs(examined)
-    return Report(
-        heed(examined, proofs), None if examined.theory is None else theory, examined.asked, examined.undecided
-    )
+    found = with_proofs(examined) if proofs else examined
+    if examined.theory is not None:
+        found = with_behaviours(found, examined.theory)
+    return Report(heed(found, proofs), None if found.theory is None else theory, found.asked, found.undecided)

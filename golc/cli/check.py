@@ -67,7 +67,7 @@ def command(
     golc check --strict -D floors=12 elevator.gl
     """
     from golc.api.loading import check
-    from golc.diagnostics import Severity
+    from golc.diagnostics import Code, Severity
     from golc.reporting.selection import Selection
 
     selection = Selection(select, ignore)
@@ -85,10 +85,11 @@ def command(
             console.err(f"{file}: {_contents(report.theory)}")
     errors = sum(finding.severity is Severity.ERROR for finding in findings)
     warnings = sum(finding.severity is Severity.WARNING for finding in findings)
+    notes = sum(finding.severity is Severity.NOTE and finding.code is not Code.NOT_DECIDED for finding in findings)
     if form not in LINES:
         counts = {"errors": errors, "warnings": warnings, "questions": asked, "undecided": undecided}
         _write_whole(console, findings, counts, form)
-    console.note(_summary(len(files), errors, warnings, undecided))
+    console.note(_summary(len(files), errors, warnings, notes, undecided))
     return int(errors > 0 or (strict and warnings > 0))
 
 
@@ -112,8 +113,9 @@ def _write_whole(console: Console, findings: Iterable[Diagnostic], counts: Mappi
     console.out(json.dumps(sarif.log(findings, counts) if form == "sarif" else json_, indent=2))
 
 
-def _summary(files: int, errors: int, warnings: int, undecided: int) -> str:
-    found = [counted(number, what) for number, what in ((errors, "error"), (warnings, "warning")) if number]
+def _summary(files: int, errors: int, warnings: int, notes: int, undecided: int) -> str:
+    kinds = ((errors, "error"), (warnings, "warning"), (notes, "note"))
+    found = [counted(number, what) for number, what in kinds if number]
     open_ = f"; {counted(undecided, 'question')} not decided" if undecided else ""
     return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}{open_}"
 

@@ -17,7 +17,7 @@ from pathlib import Path
 from types import CodeType, ModuleType
 from typing import TypeAlias, TypeVar
 
-from golc.diagnostics import Code, Diagnostic, Label, Severity, Source, Span, UserError
+from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
 from golc.syntax.text import read_source
 from golc.theory.suggest import did_you_mean
 
@@ -41,9 +41,9 @@ class PythonError(Exception):
         """The place in the file, for a finding."""
         return () if self.place is None else (Label(self.place, ""),)
 
-    def finding(self, span: Span, severity: Severity = Severity.ERROR) -> Diagnostic:
+    def finding(self, span: Span) -> Diagnostic:
         """What is to be said where a domain names the function."""
-        return Diagnostic(Code.PYTHON, str(self), span, severity, labels=self.labels, help=self.help)
+        return Diagnostic(Code.PYTHON, str(self), span, labels=self.labels, help=self.help)
 
 
 class NotTrustedError(PythonError):
