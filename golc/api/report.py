@@ -43,6 +43,11 @@ class Report:
     def __repr__(self) -> str:
         return f"<Report: {self.counts()}>"
 
+    def _repr_html_(self) -> str:
+        from golc.notebook import report_html
+
+        return report_html(self)
+
     def counts(self) -> str:
         """``2 errors, 1 warning``, or that nothing was found."""
         pairs = ((len(self.errors), "error"), (len(self.warnings), "warning"))
