@@ -13,6 +13,7 @@ from golc.checks.hosts import review_hosts
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
 from golc.imports import Joined, join
+from golc.proofs.reachable import Scope
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_source
@@ -51,9 +52,11 @@ class Examined:
     """A domain file: its theory, or none if it has errors, and all findings in the order of their places.
 
     There is none, either, if a constant would take Python code that is not executed.
+
     ``sources``: the texts of it and of what it imports, its own first; none if it cannot be read. ``file``: the tree,
     joined with those of what it imports; none if there is none. ``constants``: what replaces consts of the file.
-    ``asked``: how many questions about all its situations were put; ``undecided``: how many of them were not decided.
+    ``asked``: how many questions about all its situations were put; ``undecided``: how many of them were not decided;
+    ``scope``: which states can be reached, if that was asked.
     """
 
     theory: BasicActionTheory | None
@@ -61,17 +64,23 @@ class Examined:
     asked: int = 0
     undecided: int = 0
     sources: tuple[Source, ...] = ()
+    scope: Scope | None = None
     file: tree.File | None = None
     constants: Mapping[str, str] = field(default_factory=dict)
 
 
 def examine(
-    domain: Domain, constants: Mapping[str, str] | None = None, proofs: bool = False, trust: bool = False
+    domain: Domain,
+    constants: Mapping[str, str] | None = None,
+    proofs: bool = False,
+    reachable: bool = False,
+    trust: bool = False,
 ) -> Examined:
     """What is to be said of a domain, including what it imports.
 
-    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, and what the files
-    of the devices say. Python code that the domain names (``extern``) is executed only with ``trust``.
+    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, or all that are
+    ``reachable``, and what the files of the devices say. Python code that the domain names (``extern``) is executed
+    only with ``trust``.
     """
     findings = Findings()
     try:
@@ -82,7 +91,7 @@ def examine(
     examined = examine_file(joined.file, joined.sources, findings, constants, trust)
     if not proofs or examined.theory is None:
         return examined
-    return with_behaviours(with_proofs(examined), examined.theory)
+    return with_behaviours(with_proofs(examined, reachable), examined.theory)
 
 
 def _read(domain: Domain, findings: Findings) -> Joined:
@@ -138,13 +147,15 @@ def examine_file(
     return Examined(theory, found, sources=sources, file=file, constants=constants)
 
 
-def with_proofs(examined: Examined) -> Examined:
-    """The same with what takes all situations into account; nothing more where there is no theory."""
+def with_proofs(examined: Examined, reachable: bool = False) -> Examined:
+    """The same with what takes all situations into account, or all that are ``reachable``; nothing more
+    where there is no theory."""
     if examined.theory is None:
         return examined
     with deep_recursion():
-        proved = prove(examined.theory)
-    return replace(_with_findings(examined, proved.findings), asked=proved.asked, undecided=proved.undecided)
+        proved = prove(examined.theory, reachable)
+    found = _with_findings(examined, proved.findings)
+    return replace(found, asked=proved.asked, undecided=proved.undecided, scope=proved.scope)
 
 
 def with_behaviours(examined: Examined, theory: BasicActionTheory) -> Examined:

@@ -26,11 +26,17 @@ def load(domain: Domain, constants: Mapping[str, str] | None = None, *, trust: b
 
 
 def check(
-    domain: Domain, constants: Mapping[str, str] | None = None, *, proofs: bool = True, trust: bool = False
+    domain: Domain,
+    constants: Mapping[str, str] | None = None,
+    *,
+    proofs: bool = True,
+    reachable: bool = False,
+    trust: bool = False,
 ) -> Report:
     """What is to be said of a domain, as for ``load``, which may be wrong or not even there.
 
-    ``constants`` are as for ``load``. Without ``proofs``, what takes all situations into account is left out.
+    ``constants`` are as for ``load``. Without ``proofs``, what takes all situations into account is left out; if it
+    is to be ``reachable``, only states that can be reached are looked at where these can be gone through.
     Python code that the domain names (``extern``) is executed only with ``trust``; without it, what depends on it is
     not worked out, and notes say so.
 
@@ -41,4 +47,4 @@ def check(
     [('GL001', 'cannot read `missing.gl`: there is no such file')]
     """
     examined = examine(domain, constants, trust=trust)
-    return report_of(examined, None if examined.theory is None else Theory(examined), proofs)
+    return report_of(examined, None if examined.theory is None else Theory(examined), proofs, reachable)

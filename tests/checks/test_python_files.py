@@ -156,3 +156,15 @@ def test_constraints_without_a_world_are_one_error(examined: Check) -> None:
     text = "domain robot\nfluent gate = unknown\ninitially gate\ninitially not gate\ninvariant open: gate\n"
 
     assert [finding.code for finding in examined(text).findings] == [Code.NO_INITIAL_WORLD]
+
+
+def test_states_that_python_leads_to_are_gone_through_with_trust(examined: Check, tmp_path: Path) -> None:
+    text = ROBOT.format(poss="near(at, n)").replace("causes at := n", "causes at := n + 1")
+    examined(text, "def near(a, b):\n    return b == 2\n")
+
+    reached = examine(tmp_path / "robot.gl", proofs=True, reachable=True, trust=True)
+    assert reached.scope is not None and reached.scope.whole
+    assert reached.findings == ()
+    unknown = examine(tmp_path / "robot.gl", proofs=True, reachable=True)
+    assert unknown.scope is not None and not unknown.scope.whole
+    assert {finding.severity for finding in unknown.findings} == {Severity.NOTE}
