@@ -155,8 +155,8 @@ class Theory:
 
     # ---- what is wrong with it
 
-    def check(self, *, proofs: bool = True) -> Report:
-        """What ``golc check`` says of it; without ``proofs``, all but what takes all situations into account.
+    def check(self, *, proofs: bool = True, reachable: bool = False) -> Report:
+        """What ``golc check`` says of it; ``proofs`` and ``reachable`` are as for ``golc.check``.
 
         >>> import golc
         >>> golc.load("examples/elevator/elevator.gl").check().warnings
@@ -164,7 +164,7 @@ class Theory:
         """
         from golc.api.report import report_of
 
-        return report_of(self._examined, self, proofs)
+        return report_of(self._examined, self, proofs, reachable)
 
     def test(self) -> Iterator[Played]:
         """Runs its scenarios offline, one after the other; ``failure`` says what went wrong in one, if anything did."""
