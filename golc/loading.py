@@ -55,6 +55,8 @@ def examine(
 
     ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account.
     """
+    if Path(path).suffix == ".py":
+        return _examine_python(path, constants, goal, proofs)
     try:
         source = read_source(path)
     except UserError as error:
@@ -65,6 +67,20 @@ def examine(
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
     joined = join(file, source, findings)
     return examine_file(joined.file, joined.sources, findings, constants, goal, proofs)
+
+
+def _examine_python(path: str | Path, constants: Mapping[str, str] | None, goal: str | None, proofs: bool) -> Examined:
+    """What is to be said of a theory in Python, which is run."""
+    from golc.embed.modules import read_theory
+
+    try:
+        written = read_theory(path)
+    except UserError as error:
+        sources = tuple({id(each.span.source): each.span.source for each in error.diagnostics}.values())
+        return Examined(None, tuple(sorted(error.diagnostics, key=by_place(sources))), sources=sources)
+    joined = join(written.file, written.sources[0], written.findings)
+    sources = (*written.sources, *joined.sources[1:])
+    return examine_file(joined.file, sources, written.findings, constants, goal, proofs)
 
 
 def examine_file(
