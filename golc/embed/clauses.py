@@ -11,7 +11,7 @@ from golc.embed import words
 from golc.embed.bodies import Bodies
 from golc.embed.errors import meaningless, refused
 from golc.embed.evaluate import NOT_PYTHON
-from golc.embed.names import golc_name, new_name
+from golc.embed.names import golc_name, new_name, python_name
 from golc.embed.terms import Named, expr
 from golc.syntax import tree
 
@@ -252,7 +252,9 @@ class Clauses(Bodies):
         given = {word.arg: word.value for word in call.keywords}
         timeout = None if "timeout" not in given else self.expr(given["timeout"])
         table = None if "table" not in given else self.table(given["table"])
-        behaviour = self._behaviour(call, given)
+        variables = [arg.name.text for arg in args or () if isinstance(arg, tree.Parameter)]
+        with self.scope([python_name(name) for name in (*action.parameters, *variables)]):
+            behaviour = self._behaviour(call, given)
         return tree.Binding(ident, args, *self._number(call, given), behaviour, table, timeout, span=self.span(call))
 
     def _number(self, call: ast.Call, given: dict[str | None, ast.expr]) -> tuple[int | None, bool]:

@@ -78,7 +78,7 @@ def _check(parts: list[Part]) -> None:
         reason = _refusal("\n".join(part.lines))
         if reason is not None and part.declaration is not None:
             message = f"this declaration cannot be written in Python: {reason}"
-            raise UserError(Diagnostic(Code.SYNTAX, message, part.declaration.span))
+            raise UserError(Diagnostic(Code.PYTHON_MEANING, message, part.declaration.span))
 
 
 def _refusal(text: str) -> str | None:

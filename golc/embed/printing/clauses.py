@@ -142,10 +142,17 @@ def _binding(names: Names, binding: ast.Binding) -> Iterator[Doc]:
         case ast.ByStart(task=task):
             yield keyword("start", quoted(task.text))
         case ast.ByPrompt(message=message):
-            yield keyword("prompt", term_doc(names, message))
+            with names.bound(_variables_of(names, binding)):
+                yield keyword("prompt", term_doc(names, message))
     yield from optional("timeout", maybe(names, binding.timeout))
     if binding.table is not None:
         yield keyword("table", table_doc(names, binding.table))
+
+
+def _variables_of(names: Names, binding: ast.Binding) -> Iterator[str]:
+    """What the message to a person may name: the parameters of the action, by their names here or there."""
+    yield from names.parameters.get(binding.action.text, ())
+    yield from (arg.name.text for arg in binding.args or () if isinstance(arg, ast.Parameter))
 
 
 def table_doc(names: Names, table: ast.Table) -> Doc:

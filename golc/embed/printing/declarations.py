@@ -166,7 +166,7 @@ Named: TypeAlias = (
 def _body(names: Names, declaration: Named) -> Iterable[str]:
     match declaration:
         case ast.TypeDecl(type=type_):
-            return returned(type_doc(names, type_))
+            return returned(type_doc(names, type_, strings=True))
         case ast.Static(value=ast.Table() as table):
             return returned(table_doc(names, table))
         case ast.Fluent(initial=None):

@@ -43,7 +43,7 @@ class Names:
 
     ``declared``: the name of each declaration; ``symbols``: of each symbol; ``outside`` and ``outside_types``: of what is
     declared nowhere in the file; ``words``: those of ``golc.embed``; ``known``: the names that have been given in the text
-    so far, what stands outside among them.
+    so far, what stands outside among them; ``parameters``: those of each action and procedure.
     """
 
     def __init__(self, file: ast.File) -> None:
@@ -59,6 +59,11 @@ class Names:
         self.terms: dict[str, str] = {}
         self.types: dict[str, str] = {}
         self.programs: dict[str, str] = {}
+        self.parameters = {
+            node.name.text: tuple(parameter.name.text for parameter in node.parameters)
+            for node in reversed(file.declarations)
+            if isinstance(node, ast.Action | ast.Exog | ast.Proc)
+        }
         self.outside: dict[str, str] = {}
         self.outside_types: dict[str, str] = {}
         self._declare(file)
@@ -94,7 +99,10 @@ class Names:
 
     def function(self, name: str) -> str:
         """What is applied to arguments in an expression; variables cannot be."""
-        return self.terms[name] if name in self.terms else self._elsewhere(name)
+        for table in (self.terms, self.symbols):
+            if name in table:
+                return table[name]
+        return self._elsewhere(name)
 
     def is_type(self, name: str) -> bool:
         """Whether a name in an expression is that of a type."""
