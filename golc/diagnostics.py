@@ -177,6 +177,7 @@ class Code(Enum):
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")
+    SEVERAL_MESSAGES = ("GL081", "a number takes several messages")
     NUMBER_CLASH = ("GL082", "two bindings take the same number")
     NUMBER_RANGE = ("GL083", "a number does not fit the brick")
     BINDING_UNBOUNDED = ("GL084", "a binding ranges over a type whose values cannot be listed")

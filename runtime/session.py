@@ -26,13 +26,14 @@ from golc.runtime.loop.inbox import Inbox
 from golc.runtime.loop.inbox import Source as EventSource
 from golc.runtime.loop.policy import OnImpossible, OnSurprise, Policy
 from golc.runtime.observers.journal import Journal
-from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace, summary
+from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace
 from golc.runtime.observers.whereabouts import Whereabouts
 from golc.runtime.signals import ending_on_signals
 from golc.runtime.sources.exogenous import COMMANDS, Terminal, Timetable, from_operator
 from golc.runtime.sources.listener import Listener
 from golc.runtime.sources.polling import Poller
 from golc.runtime.sources.schedule import Schedule, read_schedule
+from golc.situation.summary import summary
 from golc.theory.ground import Call, one_of, read_value
 from golc.theory.order import arranged
 from golc.theory.statements import Message

@@ -71,7 +71,7 @@ class RobotInWorld:
     ) -> None:
         self._world = World(read_world(path), seed, trace)
         with tempfile.TemporaryDirectory() as folder:
-            image = build(theory, actions, Target.RCX2, Path(folder)).image
+            image = build(theory, actions.device, Target.RCX2, Path(folder)).image
         line, _ = simulator.build(Firmware.V2, image, self._world, Options(seed=seed), LineOptions(), trace)
         self.transport = InProcess(line, speed, str(path))
 

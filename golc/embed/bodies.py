@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
-from golc.diagnostics import Diagnostic, Span
+from golc.diagnostics import Diagnostic, Span, counted
 from golc.embed import words
 from golc.embed.errors import Refused, meaningless
 from golc.embed.evaluate import NOT_PYTHON
@@ -54,7 +54,7 @@ class Bodies(Expressions):
 
     def unrolled(self, node: ast.For, translate: Callable[[ast.stmt], Iterable[T]]) -> Iterator[T]:
         """The statements of a loop of Python, once for each of its values."""
-        values = self.python(node.iter)
+        values = self.listed(node.iter)
         if values is NOT_PYTHON or not isinstance(values, Iterable):
             help_ = "Python goes through what it knows: a list, a tuple, a dictionary"
             raise meaningless("there is nothing to go through here", self.span(node.iter), help_)
@@ -65,6 +65,12 @@ class Bodies(Expressions):
             yield from self.each(node.body, translate)
             self.function.fixed.clear()
             self.function.fixed.update(before)
+
+    def listed(self, node: ast.expr) -> object:
+        """What a loop of Python goes through: a value of Python, or a list that is written out."""
+        if isinstance(node, (ast.Tuple, ast.List)):
+            return [part.value if isinstance(part, ast.Constant) else self.python(part) for part in node.elts]
+        return self.python(node)
 
     def _assign(self, target: ast.expr, value: object) -> None:
         match target:
@@ -90,8 +96,8 @@ class Bodies(Expressions):
         parts = node.elts if isinstance(node, (ast.Tuple, ast.List)) else [node]
         names = [part for part in parts if isinstance(part, ast.Name)]
         if len(names) != len(parts) or len(names) != len(ranges):
-            message = f"{len(parts)} variables for {len(ranges)} types"
-            raise meaningless(message, self.span(node), "write as many variables as types: `for x, y in pick(t, u)`")
+            message = f"{counted(len(parts), 'variable')} for {counted(len(ranges), 'type')}"
+            raise meaningless(message, self.span(node), "write as many names as types: `for x, y in pick(t, u)`")
         return names
 
     def binders(self, target: ast.expr, ranges: Sequence[ast.expr]) -> tuple[tree.Binder, ...]:

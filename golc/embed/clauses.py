@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from golc.diagnostics import Code, Span
@@ -15,6 +15,18 @@ from golc.embed.names import golc_name, new_name, python_name
 from golc.embed.terms import Named, expr
 from golc.syntax import tree
 
+_CHANGE = "write `causes(fluent, value)`"
+IN_ACTIONS: Mapping[type[ast.stmt], str] = {
+    ast.Assign: _CHANGE,
+    ast.AnnAssign: _CHANGE,
+    ast.AugAssign: _CHANGE,
+    ast.If: "write `causes(fluent, value, when=φ)`",
+    ast.Assert: "write `poss(φ)`",
+    ast.While: "write `for n in station:` with `causes(…)` in it",
+    ast.Return: "write `senses(…)` for what a device answers",
+}
+"""What was probably meant in the body of an action."""
+
 
 class Clauses(Bodies):
     """Translates the lines of a declaration's body, each a call of a word."""
@@ -25,10 +37,10 @@ class Clauses(Bodies):
             called = self.python(node.value.func)
             if isinstance(called, words.Word) and called.name in allowed.split():
                 return node.value, called
-        if type(node) is not ast.Expr:
-            raise self.refuse(node)
-        first, *rest = [f"`{name}(…)`" for name in allowed.split()]
-        raise meaningless("this line has no meaning here", self._head(node), f"write {', '.join([first, *rest])}")
+        help_ = "write " + ", ".join(f"`{name}(…)`" for name in allowed.split())
+        if "causes" in allowed.split():
+            help_ = IN_ACTIONS.get(type(node), help_)
+        raise meaningless("this line has no meaning here", self._head(node), help_)
 
     # Actions
 

@@ -169,7 +169,8 @@ class Expressions:
                 case _:
                     text = self.expr(piece)
                     if not isinstance(text, tree.Message):
-                        raise meaningless("a message is a string or an f-string", self.span(node))
+                        help_ = f'write `f"{{{self.span(node).text}}}"`'
+                        raise meaningless("a message is a string or an f-string", self.span(node), help_)
                     parts += text.parts
         return tree.Message(_joined(parts), span=self.span(node))
 
@@ -180,9 +181,11 @@ class Expressions:
         if isinstance(value, type) and value in BUILT_IN:
             return tree.Apply(tree.Ident(BUILT_IN[value], span=span), (), span=span)
         if isinstance(value, Value):
-            raise refused(Code.MISUSED_NAME, "this stands only for the whole value of a fluent", span)
+            raise refused(Code.MISUSED_NAME, f"`{span.text}` stands only for the whole value of a fluent", span)
         if isinstance(value, Word):
-            raise refused(Code.MISUSED_NAME, f"`{value.name}` is no term", span, f"it belongs in {value.place}")
+            called = isinstance(value, words.Operator)
+            help_ = f"write `{value.name}(…)`" if called else f"it belongs in {value.place}"
+            raise refused(Code.MISUSED_NAME, f"`{value.name}` is no term", span, help_)
         return expr(value, span)
 
     def _literal(self, node: ast.Constant, value: object, span: Span) -> tree.Expr:
@@ -264,13 +267,13 @@ class Expressions:
 
     def _uncallable(self, node: ast.Call, called: object) -> Refused:
         span = self.span(node.func)
+        if called is words.count:
+            return meaningless("`count` needs `… for n in station` here", span, "write `count(φ for n in station)`")
         if isinstance(called, Word):
             return meaningless(f"`{called.name}` stands in the wrong place", span, f"it belongs in {called.place}")
         name = getattr(called, "__name__", None)
         if called in (builtins.any, builtins.all, builtins.sum, builtins.min, builtins.max):
             return meaningless(f"`{name}` needs `… for n in station` here", span, f"write `{name}(… for n in station)`")
-        if called is words.count:
-            return meaningless("`count` needs `… for n in station` here", span, "write `count(φ for n in station)`")
         if isinstance(name, str):
             return meaningless(f"`{name}` has no meaning in a theory", span)
         return meaningless("this cannot be called", span)

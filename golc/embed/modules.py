@@ -89,14 +89,15 @@ def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
     places = list(_places(error.__traceback__))
     own = [place for place in places if place.source is source]
     place = own[-1] if own else (places[-1] if places else Span(source, 0, 0))
-    labels = () if not places or places[-1] is place else (Label(places[-1], "raised here"),)
+    labels = [Label(each, "called here") for each in own[:1] if each is not place]
+    labels += [Label(each, "raised here") for each in places[-1:] if each is not place]
     if isinstance(error, SyntaxError):
         broken = source_of(error.filename or "")
         if broken.text:
             return (_syntax(error, broken),)
     text = "".join(traceback.format_exception_only(error)).strip().splitlines()[-1]
     help_ = "install it where golc runs, or put it beside this file" if isinstance(error, ImportError) else None
-    return (Diagnostic(Code.PYTHON_RAISED, f"Python fails here with {text}", place, labels=labels, help=help_),)
+    return (Diagnostic(Code.PYTHON_RAISED, f"Python fails here with {text}", place, labels=tuple(labels), help=help_),)
 
 
 def _places(where: TracebackType | None) -> Iterator[Span]:

@@ -12,7 +12,7 @@ from golc.embed.bodies import Bodies
 from golc.embed.errors import meaningless, refused
 from golc.embed.evaluate import NOT_PYTHON
 from golc.embed.names import golc_name, new_name
-from golc.embed.terms import Named
+from golc.embed.terms import Named, Term
 from golc.syntax import tree
 
 _BRANCHING: Mapping[words.Word, Any] = {
@@ -140,11 +140,10 @@ class Programs(Bodies):
 
     def _is_pythons(self, node: ast.expr) -> bool:
         """Whether a loop goes through something of Python that is no list of values of the language."""
-        value = self.python(node)
-        if value is NOT_PYTHON:
-            return False
-        values = list(value) if isinstance(value, (list, tuple, range)) else None
-        return values is None or not all(_is_constant(each) for each in values)
+        value = self.listed(node)
+        if isinstance(value, (list, tuple, range)):
+            return not any(each is NOT_PYTHON for each in value) and any(_is_no_value(each) for each in value)
+        return value is not NOT_PYTHON
 
     def _ranges(self, node: ast.For, word: words.Word | None) -> tuple[tuple[tree.Binder, ...], ast.expr | None]:
         if word is None:
@@ -276,9 +275,8 @@ class Programs(Bodies):
             raise meaningless("only `on` stands in `interrupts`", self._head(node), help_)
 
 
-def _is_constant(value: object) -> bool:
-    return (
-        value is None
-        or isinstance(value, (bool, int, float, str))
-        or (isinstance(value, Named) and value.kind == "symbol")
-    )
+def _is_no_value(value: object) -> bool:
+    """Whether something cannot be an element of a list of the language: an action, a tuple, a function."""
+    if isinstance(value, Named):
+        return value.kind in ("action", "exogenous action", "procedure")
+    return not (value is None or isinstance(value, (bool, int, float, str, Term)))

@@ -13,9 +13,10 @@ from decimal import Decimal
 from typing import Any, NoReturn
 
 from golc.diagnostics import NOWHERE, Code, Span
-from golc.embed.errors import meaningless, refused
+from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.places import caller, calling_frame, frame_span, node_at, span_of
 from golc.syntax import tree
+from golc.theory.suggest import did_you_mean
 
 SIGNS = "write `&`, `|` and `~` with each comparison in parentheses; or write it in a translated function"
 
@@ -108,6 +109,9 @@ class Term:
         span, (base, at) = _place(2)
         return Term(tree.Index(expr(self, base), expr(index, at), span=span))
 
+    def __getattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a term has no attribute `{name}`", name=name, obj=self)
+
     def __bool__(self) -> bool:
         _no_truth()
 
@@ -161,21 +165,23 @@ def in_order(
     """The arguments of a call in the order of the parameters. Raises ``Refused`` for a name that is none of them."""
     ordered = list(args)
     rest = dict(given)
+    wrong = next((name for name in rest if name not in named.parameters[len(ordered) :]), None)
+    if wrong is not None:
+        raise _no_parameter(named, wrong, span)
     for parameter in named.parameters[len(ordered) :] if rest else ():
         if parameter not in rest:
             raise refused(Code.ARITY, f"`{named.name}` has no value for its parameter `{parameter}`", span)
         ordered.append(rest.pop(parameter))
-    if rest:
-        from golc.theory.suggest import did_you_mean
-
-        wrong = next(iter(rest))
-        known = ", ".join(f"`{parameter}`" for parameter in named.parameters) or "none"
-        help_ = did_you_mean(wrong, named.parameters) or f"its parameters are: {known}"
-        message = f"`{named.name}` has no parameter `{wrong}`" + (
-            " that is still without a value" if wrong in named.parameters else ""
-        )
-        raise refused(Code.ARITY, message, span, help_)
     return tuple(ordered)
+
+
+def _no_parameter(named: Named, wrong: str, span: Span) -> Refused:
+    """An argument has the name of no parameter, or of one that has a value by its place."""
+    known = ", ".join(f"`{parameter}`" for parameter in named.parameters) or "none"
+    help_ = did_you_mean(wrong, named.parameters) or f"its parameters are: {known}"
+    twice = wrong in named.parameters
+    message = f"`{wrong}` of `{named.name}` has two values" if twice else f"`{named.name}` has no parameter `{wrong}`"
+    return refused(Code.ARITY, message, span, None if twice else help_)
 
 
 def variable(name: str, span: Span = NOWHERE) -> Named:

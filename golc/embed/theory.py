@@ -335,15 +335,27 @@ class Theory:
         name: str | None = None,
     ) -> Named:
         """Keep a function until the theory is complete; what stands for it in the meantime."""
-        meant = translated(function)
-        text = meant.name if name is None else name
-        ident = new_name(text, meant.name_span)
+        try:
+            meant = translated(function)
+            text = meant.name if name is None else name
+            ident = new_name(text, meant.name_span)
+        except Refused as error:
+            return self._broken(error, function, kind, name)
 
         def making() -> tree.Declaration:
             return make(Translator(meant), ident)
 
         self._parts.append(making)
         return Named(text, kind, tuple(golc_name(arg.arg) for arg in meant.parameters()))
+
+    def _broken(self, error: Refused, function: object, kind: str, name: str | None) -> Named:
+        """Something to go on with for a function that cannot be translated, which is said with everything else."""
+
+        def making() -> tree.Declaration:
+            raise error
+
+        self._parts.append(making)
+        return Named(name or golc_name(getattr(function, "__name__", "nothing")), kind)
 
     def _formula(self, kind: Any, what: str, name: Any, condition: object) -> Any:
         if condition is not MISSING:

@@ -46,23 +46,27 @@ class TypeForm:
 class TypeHandle(TypeForm):
     """A declared type. Going through it gives its symbols and integers in order; ``phase.moving`` is a symbol."""
 
-    __slots__ = ("_look_up", "name", "value")
+    __slots__ = ("_listed", "_look_up", "name", "value")
 
     def __init__(self, name: str, value: tree.Type, look_up: Callable[[str], object]) -> None:
         super().__init__(tree.TypeName(tree.Ident(name)))
         self.name = name
         self.value = value
         self._look_up = look_up
+        self._listed: list[Named | int] | None = None
 
     def as_term(self) -> Named:
         """The type's name as the list of its values."""
         return Named(self.name, "type")
 
     def __iter__(self) -> Iterator[Named | int]:
-        return iter(self._values(self.value))
+        # The same symbols every time: they may be keys of a dictionary.
+        if self._listed is None:
+            self._listed = self._values(self.value)
+        return iter(self._listed)
 
     def __len__(self) -> int:
-        return len(self._values(self.value))
+        return len(list(self))
 
     def __getattr__(self, name: str) -> Named:
         if not name.startswith("_"):
@@ -83,7 +87,7 @@ class TypeHandle(TypeForm):
             case tree.TypeName(name=name):
                 other = self._look_up(name.text)
                 if isinstance(other, TypeHandle):
-                    return other._values(other.value)
+                    return list(other)
         raise meaningless(f"the values of `{self.name}` cannot be listed here", caller())
 
     def _bound(self, node: tree.Expr) -> int:
@@ -202,6 +206,9 @@ def type_node(value: object, span: Span) -> tree.Type:
             return joined(tuple(None if arg is type(None) else arg for arg in typing.get_args(value)), span).node
         case range(start=start, stop=stop, step=1):
             return interval(start, stop - 1).node
+    help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
+    if isinstance(value, Term):
+        raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
     if isinstance(value, type) and value in BUILT_IN:
         return tree.TypeName(tree.Ident(BUILT_IN[value], span=span), span=span)
     if value is type(None):
@@ -213,7 +220,4 @@ def type_node(value: object, span: Span) -> tree.Type:
         return tree.CollectionType("set" if origin is set else "list", type_node(args[0], span), span=span)
     if value in (set, list):
         raise meaningless("a set or a list needs the type of its elements", span, "write `set[station]`")
-    help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
-    if isinstance(value, Term):
-        raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
     raise refused(Code.PYTHON_VALUE, f"{described(value)} is no type of the language", span, help_)
