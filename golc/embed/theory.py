@@ -208,7 +208,7 @@ class Theory:
         """``exog e(x: t): …``, what happens by itself; ``expected``: look-ahead may count on it; ``sources``: who may
         report it. A decorator."""
         span = caller()
-        reporters = tuple(new_name(source, span) for source in sources)
+        reporters = tuple(new_name(source, span, used=True) for source in sources)
 
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Exog(ident, t.parameters(), bool(expected), reporters, t.clauses(), span=t.function.span)
@@ -219,7 +219,7 @@ class Theory:
         """``axiom f(x): …``: the successor state axiom of a fluent, as a function of ``after``; a decorator."""
         span = caller()
         name = fluent.name if isinstance(fluent, Named) else fluent
-        head = new_name(name, span)
+        head = new_name(name, span, used=True)
 
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Axiom(head, t.heads(), t.cases(), span=t.function.span)
@@ -276,8 +276,8 @@ class Theory:
         """``device rcx left "left.nqc": …``: who carries the actions out; a decorator of a function of ``bind`` and
         ``setting``."""
         span = caller()
-        what = new_name(kind, span)
-        called = None if name is None else new_name(name, span)
+        what = new_name(kind, span, used=True)
+        called = None if name is None else new_name(name, span, used=True)
 
         def make(t: Translator, _: tree.Ident) -> tree.Declaration:
             return tree.Device(what, called, file, t.settings(), span=t.function.span)

@@ -46,9 +46,9 @@ def _clause(names: Names, clause: ast.Clause, indent: int) -> list[str]:
             return condition_call(names, "senses", value, indent)
         case ast.Cost(value=value):
             return condition_call(names, "cost", value, indent)
-    when = optional("when", maybe(names, clause.condition))
-    target, value = term_doc(names, clause.target), term_doc(names, clause.value)
-    return called(names.word("causes"), target, value, *when, indent=indent)
+        case ast.Effect(target=target, value=changed, condition=when):
+            change = (term_doc(names, target), term_doc(names, changed), *optional("when", maybe(names, when)))
+            return called(names.word("causes"), *change, indent=indent)
 
 
 def axiom_body(names: Names, axiom: ast.Axiom) -> Iterator[str]:
@@ -58,9 +58,7 @@ def axiom_body(names: Names, axiom: ast.Axiom) -> Iterator[str]:
             yield from after(names, case.pattern, case.value, case.condition)
 
 
-def after(
-    names: Names, pattern: ast.Pattern, value: ast.ValueExpr | None, condition: ast.Expr | None
-) -> list[str]:
+def after(names: Names, pattern: ast.Pattern, value: ast.ValueExpr | None, condition: ast.Expr | None) -> list[str]:
     """``after(a(x, 3), v, when=φ)``; what the pattern binds is known in the rest."""
     action = call_doc(names.program(pattern.action.text), *(_argument(names, arg) for arg in pattern.args))
     fresh = [arg.text for arg in pattern.args if isinstance(arg, ast.Ident) and arg.text not in names.symbols]

@@ -21,7 +21,7 @@ from golc.syntax.walk import descendants
 
 @dataclass(frozen=True)
 class Part:
-    """Lines that belong together: a function if ``kind`` is empty; parts of one other kind stand close to each other."""
+    """Lines that belong together: without a ``kind`` a function; those of one kind stand close to each other."""
 
     kind: str
     lines: list[str]
@@ -134,10 +134,10 @@ class Declarations:
     def decorated(self, place: int, declaration: Named) -> list[str]:
         """Annotations, in which Python sees no parameters, and the body, in which it does."""
         names, parameters = self.names, getattr(declaration, "parameters", ())
-        type_ = declaration.type if isinstance(declaration, ast.Static | ast.Fluent) else None
+        type_ = declaration.type if isinstance(declaration, ast.Static | ast.Extern | ast.Fluent) else None
         returns = None if type_ is None else type_doc(names, type_)
         annotated = parameter_docs(names, parameters)
-        options = _exog(declaration) if isinstance(declaration, ast.Exog) else ()
+        options = tuple(_options(declaration))
         kind = type(declaration).__name__.lower().removesuffix("decl").removesuffix("after")
         python = names.declared[place]
         decorator = decorator_doc(kind, python, declaration.name.text, options)
@@ -149,6 +149,7 @@ Named: TypeAlias = (
     ast.Const
     | ast.TypeDecl
     | ast.Static
+    | ast.Extern
     | ast.Fluent
     | ast.Define
     | ast.Invariant
@@ -167,11 +168,13 @@ def _body(names: Names, declaration: Named) -> Iterable[str]:
     match declaration:
         case ast.TypeDecl(type=type_):
             return returned(type_doc(names, type_, strings=True))
-        case ast.Static(value=ast.Table() as table):
-            return returned(table_doc(names, table))
-        case ast.Fluent(initial=None):
+        case ast.Static(value=value):
+            return returned(table_doc(names, value) if isinstance(value, ast.Table) else term_doc(names, value))
+        case ast.Extern() | ast.Fluent(initial=None):
             return [" " * INDENT + "..."]
-        case ast.Fluent(initial=value) | ast.Static(value=value) | ast.Const(value=value) | ast.Define(body=value):
+        case ast.Fluent(initial=value) if value is not None:
+            return returned(term_doc(names, value))
+        case ast.Const(value=value) | ast.Define(body=value):
             return returned(term_doc(names, value))
         case ast.Invariant(condition=value) | ast.Goal(condition=value) | ast.Prune(condition=value):
             return returned(term_doc(names, value))
@@ -183,11 +186,18 @@ def _body(names: Names, declaration: Named) -> Iterable[str]:
             return scenario_body(names, items)
         case ast.Proc(body=body):
             return block(names, body, INDENT)
+    raise TypeError(f"{declaration!r} is no declaration")
 
 
-def _exog(exog: ast.Exog) -> tuple[Doc, ...]:
-    sources = Brackets("[", tuple(quoted(source.text) for source in exog.sources), "]", packed=False)
-    return (*optional("expected", "True" if exog.expected else None), *optional("sources", sources if exog.sources else None))
+def _options(declaration: Named) -> Iterator[Doc]:
+    """What the decorator of a declaration says besides its name."""
+    match declaration:
+        case ast.Extern(path=path):
+            yield keyword("file", quoted(path))
+        case ast.Exog(expected=expected, sources=sources):
+            listed = Brackets("[", tuple(quoted(source.text) for source in sources), "]", packed=False)
+            yield from optional("expected", "True" if expected else None)
+            yield from optional("sources", listed if sources else None)
 
 
 def _device(device: ast.Device) -> Iterator[Doc]:

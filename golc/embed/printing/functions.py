@@ -30,9 +30,7 @@ def decorator_doc(kind: str, python: str, name: str, options: tuple[Doc, ...] = 
 
 def parameter_docs(names: Names, parameters: Iterable[ast.Parameter]) -> tuple[Doc, ...]:
     """``n: station``."""
-    return tuple(
-        Joined((f"{python_name(each.name.text)}: ", type_doc(names, each.type))) for each in parameters
-    )
+    return tuple(Joined((f"{python_name(each.name.text)}: ", type_doc(names, each.type))) for each in parameters)
 
 
 def returned(value: Doc) -> list[str]:

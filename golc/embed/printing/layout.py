@@ -62,9 +62,9 @@ def laid_out_value(before: str, value: Doc, behind: str, indent: int) -> list[st
     """The lines of a statement with a value that may be put into parentheses, so that it can be broken anywhere."""
     whole = Joined((before, _unbroken(value), behind))
     lines = _Layout(WIDTH - indent).run(whole)
-    if len(lines) > 1 or len(lines[0]) > WIDTH - indent:
-        if not _breaks_inside(value) or len(lines[0]) > WIDTH - indent:
-            lines = _Layout(WIDTH - indent).run(Joined((before, Brackets("(", (value,), ")"), behind)))
+    too_long = len(lines[0]) > WIDTH - indent
+    if too_long or (len(lines) > 1 and not _breaks_inside(value)):
+        lines = _Layout(WIDTH - indent).run(Joined((before, Brackets("(", (value,), ")"), behind)))
     return [" " * indent + line for line in lines]
 
 

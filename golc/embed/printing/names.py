@@ -14,6 +14,7 @@ KINDS: dict[type[ast.Node], str] = {
     ast.Const: "const",
     ast.TypeDecl: "type",
     ast.Static: "static",
+    ast.Extern: "static",
     ast.Fluent: "fluent",
     ast.Define: "definition",
     ast.Action: "action",
@@ -30,7 +31,7 @@ KINDS: dict[type[ast.Node], str] = {
 }
 """What is added to a name that another thing has already."""
 
-TERMS = (ast.Const, ast.Static, ast.Fluent, ast.Define, ast.Invariant, ast.Goal)
+TERMS = (ast.Const, ast.Static, ast.Extern, ast.Fluent, ast.Define, ast.Invariant, ast.Goal)
 PROGRAMS = (ast.Action, ast.Exog, ast.Proc)
 OTHERS = (ast.Prune, ast.PruneAfter, ast.Scenario)
 
@@ -41,9 +42,9 @@ PYTHON_TYPES = {"bool": "bool", "int": "int", "real": "float", "string": "str"}
 class Names:
     """Python names for the things of a file, and what of them and of ``golc.embed`` has been used so far.
 
-    ``declared``: the name of each declaration; ``symbols``: of each symbol; ``outside`` and ``outside_types``: of what is
-    declared nowhere in the file; ``words``: those of ``golc.embed``; ``known``: the names that have been given in the text
-    so far, what stands outside among them; ``parameters``: those of each action and procedure.
+    ``declared``: the name of each declaration; ``symbols``: of each symbol; ``outside`` and ``outside_types``: of what
+    is declared nowhere in the file; ``words``: those of ``golc.embed``; ``known``: the names that the text has given
+    so far, and those of what stands outside; ``parameters``: those of each action and procedure.
     """
 
     def __init__(self, file: ast.File) -> None:

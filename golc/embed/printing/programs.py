@@ -61,7 +61,9 @@ def _other(names: Names, statement: ast.Statement, indent: int) -> Iterator[str]
     """A block under one word, or a word alone."""
     match statement:
         case ast.Star(limit=limit, body=body):
-            yield from _with(names, call_doc(names.word("star"), *optional("at_most", maybe(names, limit))), body, indent)
+            yield from _with(
+                names, call_doc(names.word("star"), *optional("at_most", maybe(names, limit))), body, indent
+            )
         case ast.TogetherStar(body=body):
             yield from _with(names, call_doc(names.word("together_star")), body, indent)
         case ast.Guard(condition=condition, body=body):
