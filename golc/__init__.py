@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from golc.planning.plans import Case, Outcome, Plan
     from golc.program.blame import Blocked
     from golc.rendering import render
+    from golc.runtime.loop.happenings import End
+    from golc.runtime.running import Occurrence, Run, run
+    from golc.runtime.session import Voice
     from golc.theory.ground import Call
     from golc.theory.statements import Strategy
     from golc.theory.types import Unknown
@@ -33,22 +36,27 @@ __all__ = [
     "Case",
     "DeviceError",
     "Diagnostic",
+    "End",
     "GolcError",
     "Key",
     "LimitError",
     "NoPlanError",
+    "Occurrence",
     "Outcome",
     "Plan",
     "ProgramError",
     "Report",
+    "Run",
     "State",
     "Strategy",
     "Theory",
     "Unknown",
     "UserError",
+    "Voice",
     "check",
     "load",
     "render",
+    "run",
 ]
 
 _ROOMS = {
@@ -77,6 +85,9 @@ _ROOMS = {
     ),
     "golc.program.blame": ("Blocked",),
     "golc.rendering": ("render",),
+    "golc.runtime.loop.happenings": ("End",),
+    "golc.runtime.running": ("Occurrence", "Run", "run"),
+    "golc.runtime.session": ("Voice",),
     "golc.theory.ground": ("Call",),
     "golc.theory.statements": ("Strategy",),
     "golc.theory.types": ("Unknown",),

@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING, TypeAlias
 
 from golc.checks import check
 from golc.checks.bricks import review_bricks
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
-from golc.imports import join
+from golc.imports import Joined, join
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_source
@@ -18,13 +19,19 @@ from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
+if TYPE_CHECKING:
+    from golc.embed.theory import Theory, Written
 
-def load(path: str | Path, constants: Mapping[str, str] | None = None) -> BasicActionTheory:
-    """The theory of a domain file; ``constants`` replace consts of the file, name to text (``-D``).
+Domain: TypeAlias = "str | Path | Theory"
+"""Where a theory comes from: the path of a file, which is Python if it ends in ``.py``, or an object of Python."""
+
+
+def load(domain: Domain, constants: Mapping[str, str] | None = None) -> BasicActionTheory:
+    """The theory of a domain; ``constants`` replace consts of the file, name to text (``-D``).
 
     Raises ``UserError`` with every error if there is one; warnings are not mentioned.
     """
-    return theory_of(examine(path, constants))
+    return theory_of(examine(domain, constants))
 
 
 def theory_of(examined: Examined) -> BasicActionTheory:
@@ -52,41 +59,50 @@ class Examined:
     constants: Mapping[str, str] = field(default_factory=dict)
 
 
-def examine(path: str | Path, constants: Mapping[str, str] | None = None, proofs: bool = False) -> Examined:
-    """What is to be said of a domain file, including what it imports.
+def examine(domain: Domain, constants: Mapping[str, str] | None = None, proofs: bool = False) -> Examined:
+    """What is to be said of a domain, including what it imports.
 
     ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, and what the NQC
     files of the bricks say.
     """
-    if Path(path).suffix == ".py":
-        return _examine_python(path, constants, goal, proofs)
-    try:
-        source = read_source(path)
-    except UserError as error:
-        return Examined(None, error.diagnostics)
     findings = Findings()
-    file = parse_file(source, findings)
-    if file is None:
-        return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
-    joined = join(file, source, findings)
+    try:
+        joined = _read(domain, findings)
+    except UserError as error:
+        sources = _sources_of(error.diagnostics)
+        return Examined(None, tuple(sorted(error.diagnostics, key=by_place(sources))), sources=sources)
     examined = examine_file(joined.file, joined.sources, findings, constants)
     if not proofs or examined.theory is None:
         return examined
     return with_behaviours(with_proofs(examined), examined.theory)
 
 
-def _examine_python(path: str | Path, constants: Mapping[str, str] | None, goal: str | None, proofs: bool) -> Examined:
-    """What is to be said of a theory in Python, which is run."""
-    from golc.embed.modules import read_theory
+def _read(domain: Domain, findings: Findings) -> Joined:
+    """The tree of a domain, joined with what it imports; raises ``UserError`` if there is none."""
+    if not isinstance(domain, (str, Path)):
+        return _join_written(domain.written(), findings)
+    if Path(domain).suffix == ".py":
+        from golc.embed.modules import read_theory
 
-    try:
-        written = read_theory(path)
-    except UserError as error:
-        sources = tuple({id(each.span.source): each.span.source for each in error.diagnostics}.values())
-        return Examined(None, tuple(sorted(error.diagnostics, key=by_place(sources))), sources=sources)
-    joined = join(written.file, written.sources[0], written.findings)
-    sources = (*written.sources, *joined.sources[1:])
-    return examine_file(joined.file, sources, written.findings, constants, goal, proofs)
+        return _join_written(read_theory(domain), findings)
+    source = read_source(domain)
+    file = parse_file(source, findings)
+    if file is None:
+        raise UserError(*findings.diagnostics)
+    return join(file, source, findings)
+
+
+def _join_written(written: Written, findings: Findings) -> Joined:
+    """The tree of a theory in Python, joined with what it imports."""
+    for diagnostic in written.findings.diagnostics:
+        findings.add(diagnostic)
+    joined = join(written.file, written.sources[0], findings)
+    return Joined(joined.file, (*written.sources, *joined.sources[1:]))
+
+
+def _sources_of(diagnostics: tuple[Diagnostic, ...]) -> tuple[Source, ...]:
+    """The texts that some findings are about; none of a file that cannot be read."""
+    return tuple({id(each.span.source): each.span.source for each in diagnostics if each.span.source.text}.values())
 
 
 def examine_file(

@@ -20,10 +20,12 @@ from golc.runtime.rcxsim.inprocess import InProcess
 from golc.runtime.rcxsim.line import LineOptions
 from golc.runtime.rcxsim.machine import simulator
 from golc.runtime.rcxsim.machine.options import Firmware, Options
+from golc.runtime.rcxsim.theory import simulator as simulator_of_theory
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.rcxsim.world.picture import draw
 from golc.runtime.rcxsim.world.world import World
 from golc.runtime.rcxsim.world.worldfile import read_world
+from golc.runtime.sources.schedule import Schedule
 from golc.theory.theory import BasicActionTheory
 
 NO_WORLD = "none"
@@ -58,6 +60,12 @@ def place(theory: BasicActionTheory, bricks: Mapping[str, ActionMap], world: str
     except DeviceError as error:
         return Place(None, f"with nqc, the program of the brick would drive the robot in {beside}: {error.help}")
     return Place(beside)
+
+
+def bricks_of_theory(theory: BasicActionTheory, schedule: Schedule | None, speed: float, seed: int) -> InProcess:
+    """The end of a line to bricks that do what the theory says; without a schedule events come by chance."""
+    line = simulator_of_theory.build(theory, LineOptions(), schedule, seed, Trace())
+    return InProcess(line, speed, "a simulated brick")
 
 
 class RobotInWorld:

@@ -14,6 +14,7 @@ from golc.diagnostics import GolcError, LimitError, counted
 from golc.loading import Examined, theory_of
 from golc.planning.plans import Outcome, Plan
 from golc.program.blame import Blocked
+from golc.situation import worlds
 from golc.situation.dynamics import Dynamics
 from golc.theory.ground import Call, read_procedure
 from golc.theory.queries import Queries
@@ -182,7 +183,11 @@ class Theory:
 
     def initial(self) -> State:
         """The initial state: one world, or all that the domain leaves possible."""
-        return State(self._dynamics, self._dynamics.initial())
+        return self.state(self._dynamics.initial())
+
+    def state(self, raw: worlds.State) -> State:
+        """A state as the rooms inside golc have it, for users."""
+        return State(self._dynamics, raw)
 
     def possible(self, state: State, *, exogenous: bool = False) -> list[Call]:
         """The ground actions that are known to be possible; with ``exogenous`` those that may happen instead.
@@ -225,7 +230,7 @@ class Theory:
         """
         with deep_recursion(EVALUATION):
             call = acting.call_of(self._dynamics, action)
-            return State(self._dynamics, acting.after(self._dynamics, self._raw(state), call, sensed))
+            return self.state(acting.after(self._dynamics, self._raw(state), call, sensed))
 
     def holds(self, state: State, formula: str) -> bool:
         """Whether a formula is known to be true. The text may use every name that the domain declares."""

@@ -74,8 +74,8 @@ class Trace:
         dynamics: Dynamics,
         style: Style,
         verbosity: int,
-        write: Callable[[str], None],
-        complain: Callable[[tuple[Diagnostic, ...]], None],
+        write: Callable[[str], object],
+        complain: Callable[[tuple[Diagnostic, ...]], object],
     ) -> None:
         self._dynamics = dynamics
         self._style = style
