@@ -12,6 +12,7 @@ from golc.checks.bricks import review_bricks
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
 from golc.imports import Joined, join
+from golc.proofs.reachable import Scope
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_source
@@ -47,7 +48,8 @@ class Examined:
 
     ``sources``: the texts of it and of what it imports, its own first; none if it cannot be read. ``file``: the tree,
     joined with those of what it imports; none if there is none. ``constants``: what replaces consts of the file.
-    ``asked``: how many questions about all its situations were put; ``undecided``: how many of them were not decided.
+    ``asked``: how many questions about all its situations were put; ``undecided``: how many of them were not decided;
+    ``scope``: which states can be reached, if that was asked.
     """
 
     theory: BasicActionTheory | None
@@ -55,15 +57,18 @@ class Examined:
     asked: int = 0
     undecided: int = 0
     sources: tuple[Source, ...] = ()
+    scope: Scope | None = None
     file: tree.File | None = None
     constants: Mapping[str, str] = field(default_factory=dict)
 
 
-def examine(domain: Domain, constants: Mapping[str, str] | None = None, proofs: bool = False) -> Examined:
+def examine(
+    domain: Domain, constants: Mapping[str, str] | None = None, proofs: bool = False, reachable: bool = False
+) -> Examined:
     """What is to be said of a domain, including what it imports.
 
-    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, and what the NQC
-    files of the bricks say.
+    ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, or all that are
+    ``reachable``, and what the NQC files of the bricks say.
     """
     findings = Findings()
     try:
@@ -74,7 +79,7 @@ def examine(domain: Domain, constants: Mapping[str, str] | None = None, proofs: 
     examined = examine_file(joined.file, joined.sources, findings, constants)
     if not proofs or examined.theory is None:
         return examined
-    return with_behaviours(with_proofs(examined), examined.theory)
+    return with_behaviours(with_proofs(examined, reachable), examined.theory)
 
 
 def _read(domain: Domain, findings: Findings) -> Joined:
@@ -126,13 +131,15 @@ def examine_file(
     return Examined(theory, found, sources=sources, file=file, constants=constants)
 
 
-def with_proofs(examined: Examined) -> Examined:
-    """The same with what takes all situations into account; nothing more where there is no theory."""
+def with_proofs(examined: Examined, reachable: bool = False) -> Examined:
+    """The same with what takes all situations into account, or all that are ``reachable``; nothing more
+    where there is no theory."""
     if examined.theory is None:
         return examined
     with deep_recursion():
-        proved = prove(examined.theory)
-    return replace(_with_findings(examined, proved.findings), asked=proved.asked, undecided=proved.undecided)
+        proved = prove(examined.theory, reachable)
+    found = _with_findings(examined, proved.findings)
+    return replace(found, asked=proved.asked, undecided=proved.undecided, scope=proved.scope)
 
 
 def with_behaviours(examined: Examined, theory: BasicActionTheory) -> Examined:

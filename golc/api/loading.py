@@ -23,10 +23,13 @@ def load(domain: Domain, constants: Mapping[str, str] | None = None) -> Theory:
     return Theory(examine(domain, constants))
 
 
-def check(domain: Domain, constants: Mapping[str, str] | None = None, *, proofs: bool = True) -> Report:
+def check(
+    domain: Domain, constants: Mapping[str, str] | None = None, *, proofs: bool = True, reachable: bool = False
+) -> Report:
     """What is to be said of a domain, as for ``load``, which may be wrong or not even there.
 
-    ``constants`` are as for ``load``. Without ``proofs``, what takes all situations into account is left out.
+    ``constants`` are as for ``load``. Without ``proofs``, what takes all situations into account is left out; if it
+    is to be ``reachable``, only states that can be reached are looked at where these can be gone through.
 
     >>> import golc
     >>> golc.check("examples/elevator/elevator.gl")
@@ -35,4 +38,4 @@ def check(domain: Domain, constants: Mapping[str, str] | None = None, *, proofs:
     [('GL001', 'cannot read `missing.gl`: there is no such file')]
     """
     examined = examine(domain, constants)
-    return report_of(examined, None if examined.theory is None else Theory(examined), proofs)
+    return report_of(examined, None if examined.theory is None else Theory(examined), proofs, reachable)

@@ -47,7 +47,7 @@ def _told(theory: BasicActionTheory) -> frozenset[str]:
     effects = [effect for action in actions for effect in action.effects]
     told = _read(theory, asked) | {effect.fluent for effect in effects if not _says_nothing(effect)}
     links = [_read(theory, [constraint]) for constraint in theory.initially]
-    links += [_read(theory, _terms(effect)) | {effect.fluent} for effect in effects]
+    links += [_read(theory, effect.terms) | {effect.fluent} for effect in effects]
     while any(told & link and not link <= told for link in links):
         told = told.union(*[link for link in links if told & link])
     return told
@@ -62,12 +62,6 @@ def _says_nothing(effect: Effect) -> bool:
     """Whether an effect makes its fluent unknown altogether."""
     among = effect.value.among if isinstance(effect.value, Choice) else None
     return isinstance(among, Literal) and among.value == tuple(effect.value.type.values)
-
-
-def _terms(effect: Effect) -> list[Term]:
-    value = effect.value.among if isinstance(effect.value, Choice) else effect.value
-    within = [binder.within for binder in effect.binders]
-    return [term for term in (*within, effect.where, *effect.args, value, effect.condition) if term is not None]
 
 
 class _UnreadError(Exception):

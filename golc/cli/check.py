@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+from dataclasses import asdict
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -38,6 +39,7 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 )
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
+@click.option("--reachable", is_flag=True, help="Show only what can happen in states that can be reached.")
 @click.option(
     "--select", multiple=True, metavar="CODES", callback=_starts, help="Only findings whose codes begin so: GL0,GL041."
 )
@@ -51,6 +53,7 @@ def command(
     form: str,
     strict: bool,
     no_proofs: bool,
+    reachable: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
     constants: Mapping[str, str],
@@ -71,14 +74,18 @@ def command(
     selection = Selection(select, ignore)
     findings: list[Diagnostic] = []
     asked = undecided = 0
+    scopes: list[dict[str, Any]] = []
     for file in files:
-        report = check(file, constants, proofs=not no_proofs)
+        report = check(file, constants, proofs=not no_proofs, reachable=reachable)
         found = [finding for finding in report.findings if selection.wants(finding.code)]
         findings.extend(found)
         asked += report.asked
         undecided += report.undecided
         if form in LINES:
             _write(console, found, form)
+        if report.scope is not None:
+            scopes.append({"file": file, **asdict(report.scope)})
+            console.note(f"{file}: {report.scope}")
         if console.verbosity > 0:
             console.err(f"{file}: {_contents(report.theory)}")
     errors = sum(finding.severity is Severity.ERROR for finding in findings)
@@ -86,7 +93,7 @@ def command(
     notes = sum(finding.severity is Severity.NOTE and finding.code is not Code.NOT_DECIDED for finding in findings)
     if form not in LINES:
         counts = {"errors": errors, "warnings": warnings, "questions": asked, "undecided": undecided}
-        _write_whole(console, findings, counts, form)
+        _write_whole(console, findings, {**counts, **({"reachable": scopes} if reachable else {})}, form)
     console.note(_summary(len(files), errors, warnings, notes, undecided))
     return int(errors > 0 or (strict and warnings > 0))
 
@@ -101,7 +108,7 @@ def _write(console: Console, findings: Iterable[Diagnostic], form: str) -> None:
         console.out(annotation(finding) if form == "github" else render(finding, console.colored(sys.stdout)) + "\n")
 
 
-def _write_whole(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, int], form: str) -> None:
+def _write_whole(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, Any], form: str) -> None:
     import json
 
     from golc.rendering import to_json

@@ -19,7 +19,7 @@ from golc.theory import elaborate_statements as programs
 from golc.theory import elaborate_types as types
 from golc.theory import elaborate_values as values
 from golc.theory.calls import circular, substatements
-from golc.theory.context import Context, Resolver, Signature
+from golc.theory.context import WORD, Context, Resolver, Signature
 from golc.theory.declare import declare
 from golc.theory.elaborate_axioms import with_axioms
 from golc.theory.elaborate_devices import device_name, devices
@@ -29,6 +29,7 @@ from golc.theory.elaborate_scenarios import scenarios
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
+from golc.theory.suggest import closest
 from golc.theory.terms import DefinedTerm, PossTerm, Term, subterms
 from golc.theory.theory import (
     Action,
@@ -42,6 +43,11 @@ from golc.theory.theory import (
 from golc.theory.types import Type
 
 T = TypeVar("T")
+
+_NAMELESS = re.compile(
+    r"(?:import|(?:const|type|static|fluent|define|action|exog|proc|goal)[ \t]*(?:[^A-Za-z \t]|from\b))"
+)
+"""The beginning of an import, or of a declaration whose name is missing."""
 
 
 def elaborate(
@@ -57,16 +63,16 @@ def elaborate(
     of a file with imports, which have been joined. If there are errors among
     ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
     """
-    assumed: frozenset[str] = frozenset()
-    if findings.has_errors:
-        assumed = assumed.union(*[_unread(file, each) for each in sources or (source,)])
+    unread = [text for each in sources or (source,) for text in _unread(file, each)] if findings.has_errors else []
+    assumed = frozenset([word for text in unread for word in WORD.findall(text)])
+    nameless = any(map(_brings_a_name, unread))
     found = Findings()
     if not findings.has_errors:
         _no_imports(file, found)
     theory = None
     try:
         with deep_recursion():
-            theory = _elaborate(file, source, found, constants or {}, assumed)
+            theory = _elaborate(file, source, found, constants or {}, assumed, nameless)
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
@@ -83,20 +89,28 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
-def _unread(file: tree.File, source: Source) -> frozenset[str]:
-    """Every word in the parts of a text that could not be read."""
+def _unread(file: tree.File, source: Source) -> list[str]:
+    """The parts of a text that could not be read."""
     read = {declaration.span.start for declaration in file.declarations if declaration.span.source is source}
-    words: set[str] = set()
-    for chunk in split(source.text):
-        if chunk.start not in read:
-            words.update(re.findall(r"[A-Za-z][A-Za-z0-9_]*", source.text[chunk.start : chunk.end]))
-    return frozenset(words)
+    return [source.text[chunk.start : chunk.end] for chunk in split(source.text) if chunk.start not in read]
+
+
+def _brings_a_name(unread: str) -> bool:
+    """Whether a declaration would bring a name that does not stand in it: it has none, or it is an import."""
+    first = WORD.match(unread)
+    return _NAMELESS.match(unread) is not None or (first is not None and closest(first[0], ["import"]) is not None)
 
 
 def _elaborate(
-    file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str], assumed: frozenset[str]
+    file: tree.File,
+    source: Source,
+    findings: Findings,
+    constants: Mapping[str, str],
+    assumed: frozenset[str],
+    nameless: bool,
 ) -> BasicActionTheory:
     declared = declare(file, findings, assumed)
+    declared.names.nameless = nameless
     context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value)
     blocks = [node for node in file.declarations if isinstance(node, tree.Device)]
     context.device_names = tuple([device_name(node) for node in blocks])

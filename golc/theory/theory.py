@@ -9,7 +9,7 @@ from fractions import Fraction
 from golc.diagnostics import NOWHERE, Source, Span
 from golc.theory.scenarios import Scenario
 from golc.theory.statements import Message, Statement
-from golc.theory.terms import Binder, Choice, Term
+from golc.theory.terms import Binder, Choice, Term, ranges
 from golc.theory.types import Type, Value
 
 
@@ -79,6 +79,13 @@ class Effect:
     value: Term | Choice
     condition: Term | None
     span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """All terms of the clause."""
+        value = self.value.among if isinstance(self.value, Choice) else self.value
+        conditions = [term for term in (self.where, self.condition) if term is not None]
+        return (*ranges(self.binders), *self.args, value, *conditions)
 
 
 @dataclass(frozen=True)
