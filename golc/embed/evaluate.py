@@ -66,7 +66,8 @@ class Evaluator:
                 base = self(owner)
                 if isinstance(base, TypeHandle) and isinstance(node, ast.Attribute):
                     return self._symbol(base, node)
-                return NOT_PYTHON if base is NOT_PYTHON or isinstance(base, (Term, Word)) else self._run(node)
+                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or _is_type(base)
+                return NOT_PYTHON if ours else self._run(node)
             case ast.Call(func=function):
                 called = self(function)
                 ours = called is NOT_PYTHON or isinstance(called, (Term, Word, Value))

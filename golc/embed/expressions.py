@@ -406,8 +406,17 @@ class Expressions:
                 raise meaningless(
                     f"the parameter `{arg.arg}` has no type", self.span(arg), f"write `{arg.arg}: station`"
                 )
-            found.append(tree.Parameter(name, self.type(arg.annotation), span=self.span(arg)))
+            found.append(tree.Parameter(name, self.annotation(arg.annotation), span=self.span(arg)))
         return tuple(found)
+
+    def annotation(self, node: ast.expr) -> tree.Type:
+        """The type in an annotation, in which parameters are not known."""
+        bound = set(self.bound)
+        self.bound.clear()
+        try:
+            return self.type(node)
+        finally:
+            self.bound.update(bound)
 
 
 def _joined(parts: Sequence[str | tree.Expr]) -> tuple[str | tree.Expr, ...]:

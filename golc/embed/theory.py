@@ -405,4 +405,4 @@ class Theory:
 
     def _returns(self, translator: Translator) -> tree.Type | None:
         annotation = translator.function.node.returns
-        return None if annotation is None else translator.type(annotation)
+        return None if annotation is None else translator.annotation(annotation)

@@ -121,7 +121,7 @@ def element(value: object, span: Span) -> tree.Ident | tree.Number:
     match value:
         case str():
             return new_name(value, span)
-        case Named(kind="symbol" | "name"):
+        case TypeHandle() | Named() if not (isinstance(value, Named) and value.kind == "variable"):
             return tree.Ident(value.name, span=span)
         case int() if not isinstance(value, bool):
             return tree.Number(value, span=span)

@@ -9,7 +9,7 @@ from typing import TypeAlias
 from golc.embed.names import python_name
 from golc.embed.printing.clauses import action_body, after, axiom_body, device_body, scenario_body, table_doc
 from golc.embed.printing.evaluated import keeps_type, keeps_value
-from golc.embed.printing.functions import decorator_doc, function_lines, parameter_docs, returned
+from golc.embed.printing.functions import ELLIPSIS, decorator_doc, function_lines, parameter_docs, returned
 from golc.embed.printing.layout import INDENT, WIDTH, Brackets, Doc, Joined, laid_out
 from golc.embed.printing.names import KINDS, Names
 from golc.embed.printing.programs import block
@@ -82,7 +82,7 @@ class Declarations:
                 return laid_out(call_doc("theory.import_", quoted(path)), 0)
             case ast.Const(value=value) if keeps_value(names, value):
                 return self.assigned_call(place, declaration, term_doc(names, value))
-            case ast.TypeDecl(type=type_) if keeps_type(names, type_):
+            case ast.TypeDecl(type=type_) if keeps_type(names, type_, strings=True):
                 return self.assigned_call(place, declaration, type_doc(names, type_, strings=True))
             case ast.Static(parameters=(), type=type_, value=value) if type_ is not None:
                 if not isinstance(value, ast.Table) and self.keeps(type_, value):
@@ -171,7 +171,7 @@ def _body(names: Names, declaration: Named) -> Iterable[str]:
         case ast.Static(value=value):
             return returned(table_doc(names, value) if isinstance(value, ast.Table) else term_doc(names, value))
         case ast.Extern() | ast.Fluent(initial=None):
-            return [" " * INDENT + "..."]
+            return [ELLIPSIS]
         case ast.Fluent(initial=value) if value is not None:
             return returned(term_doc(names, value))
         case ast.Const(value=value) | ast.Define(body=value):
@@ -221,12 +221,23 @@ def _mentioned(file: ast.File) -> set[str]:
     """The names that may be those of symbols, outside of enumerations that a type declares."""
     found: set[str] = set()
     for declaration in file.declarations:
+        own = list(_surface(declaration.type)) if isinstance(declaration, ast.TypeDecl) else []
         for node in descendants(declaration):
             match node:
-                case ast.Apply(name=name, args=()):
+                case ast.Apply(name=name):
                     found.add(name.text)
                 case ast.Pattern(args=args) | ast.Binding(args=tuple(args)):
                     found.update(arg.text for arg in args if isinstance(arg, ast.Ident))
-                case ast.EnumType(elements=elements) if not isinstance(declaration, ast.TypeDecl):
+                case ast.EnumType(elements=elements) if not any(node is each for each in own):
                     found.update(element.text for element in elements if isinstance(element, ast.Ident))
     return found
+
+
+def _surface(type_: ast.Type) -> Iterator[ast.Type]:
+    """The types that a type is made of, those inside its bounds apart."""
+    yield type_
+    match type_:
+        case ast.UnionType(pieces=pieces):
+            yield from pieces
+        case ast.OptionalType(base=inner) | ast.CollectionType(element=inner):
+            yield from _surface(inner)

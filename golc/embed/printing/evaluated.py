@@ -56,20 +56,23 @@ def _is_float(value: Decimal) -> bool:
     return Decimal(repr(float(text))) == value
 
 
-def keeps_type(names: Names, type_: ast.Type) -> bool:
-    """Whether a type gives its own tree when Python computes it."""
+def keeps_type(names: Names, type_: ast.Type, strings: bool = False) -> bool:
+    """Whether a type gives its own tree when Python computes it; ``strings`` is as for ``type_doc``."""
     match type_:
+        case ast.EnumType(elements=elements):
+            symbols = (element.text for element in elements if isinstance(element, ast.Ident))
+            return strings or all(names.element(symbol) in names.known for symbol in symbols)
         case ast.TypeName(name=name):
             return names.type(name.text) in names.known or _is_builtin(names, type_)
         case ast.IntervalType(low=low, high=high):
             return keeps_value(names, low) and keeps_value(names, high)
         case ast.UnionType(pieces=(first, second, *_) as pieces):
             plain = _is_builtin(names, first) and _is_builtin(names, second)
-            return not plain and all(keeps_type(names, piece) for piece in pieces)
+            return not plain and all(keeps_type(names, piece, strings) for piece in pieces)
         case ast.OptionalType(base=base):
-            return keeps_type(names, base)
+            return keeps_type(names, base, strings)
         case ast.CollectionType(element=element):
-            return keeps_type(names, element)
+            return keeps_type(names, element, strings)
     return True
 
 

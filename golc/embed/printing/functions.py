@@ -12,13 +12,19 @@ from golc.embed.printing.terms import call_doc, keyword, maybe, optional, source
 from golc.syntax import tree as ast
 
 
+ELLIPSIS = "..."
+"""The body of a function that says nothing more, which stands in the line of its head."""
+
+
 def function_lines(
     decorator: Doc, name: str, parameters: tuple[Doc, ...], returns: Doc | None, body: Iterable[str]
 ) -> list[str]:
     """A function under a decorator; ``pass`` is the body of one that has none."""
-    arrow: Doc = ":" if returns is None else Joined((" -> ", returns, ":"))
-    head = laid_out(Joined((f"def {name}", Brackets("(", parameters, ")"), arrow)), 0)
-    return [*laid_out(Joined(("@", decorator)), 0), *head, *(list(body) or [" " * INDENT + "pass"])]
+    lines = list(body) or [" " * INDENT + "pass"]
+    colon = ":" if lines != [ELLIPSIS] else f": {ELLIPSIS}"
+    arrow: Doc = colon if returns is None else Joined((" -> ", returns, colon))
+    head = laid_out(Joined((f"def {name}", Brackets("(", parameters, ")", trailing=True), arrow)), 0)
+    return [*laid_out(Joined(("@", decorator)), 0), *head, *(lines if lines != [ELLIPSIS] else [])]
 
 
 def decorator_doc(kind: str, python: str, name: str, options: tuple[Doc, ...] = ()) -> Doc:

@@ -30,7 +30,8 @@ class Chain:
 class Brackets:
     """Items in brackets, which may stand in lines of their own.
 
-    ``separator`` stands between them; ``packed``: they may share one line between those of the brackets.
+    ``separator`` stands between them; ``packed``: they may share one line between those of the brackets; ``trailing``:
+    the separator also follows on a single item, as it does on several.
     """
 
     opening: str
@@ -38,6 +39,7 @@ class Brackets:
     closing: str
     separator: str = ","
     packed: bool = True
+    trailing: bool = False
 
 
 Doc: TypeAlias = str | Joined | Chain | Brackets
@@ -111,7 +113,7 @@ class _Layout:
         if doc.packed and _fits(inside, [(item, True) for item in reversed(items)], []):
             self.push(items, indent + INDENT, True)
         else:
-            many = len(doc.items) > 1
+            many = doc.trailing or len(doc.items) > 1
             self.push((*items, doc.separator if many else ""), indent + INDENT, False)
         self.push((doc.opening, _Break("")), indent + INDENT, False)
 

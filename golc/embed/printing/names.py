@@ -105,6 +105,10 @@ class Names:
                 return table[name]
         return self._elsewhere(name)
 
+    def element(self, name: str) -> str:
+        """An element of an enumeration."""
+        return self.symbols[name] if name in self.symbols else self.terms.get(name) or self.types[name]
+
     def is_type(self, name: str) -> bool:
         """Whether a name in an expression is that of a type."""
         if self._locals[name] or name in self.terms or name in self.symbols:
@@ -187,10 +191,26 @@ class Names:
 
 
 def _clashes(declaration: ast.Declaration, symbols: Set[ast.Ident | ast.Number]) -> set[str]:
-    """The names that are variables of a declaration and also something else in it that Python could not tell apart."""
+    """The names that are variables of a declaration and also something else in it that Python could not tell apart.
+
+    In annotations Python sees no parameters: each is looked at by itself.
+    """
+    body: list[ast.Node] = [declaration]
+    found: set[str] = set()
+    for child in children(declaration):
+        annotation = child.type if isinstance(child, ast.Parameter) else child
+        if isinstance(annotation, ast.Type):
+            found |= _clashing(descendants(annotation), symbols)
+            body += [child] if child is not annotation else []
+        else:
+            body += descendants(child)
+    return found | _clashing(body, symbols)
+
+
+def _clashing(nodes: Iterable[ast.Node], symbols: Set[ast.Ident | ast.Number]) -> set[str]:
     variables: set[str] = set()
     others: set[str] = set()
-    for node in _inside(declaration):
+    for node in nodes:
         match node:
             case ast.Parameter(name=name) | ast.Binder(name=name) | ast.Let(name=name):
                 variables.add(name.text)
@@ -211,13 +231,3 @@ def _clashes(declaration: ast.Declaration, symbols: Set[ast.Ident | ast.Number])
             case ast.EnumType(elements=elements):
                 others.update(element.text for element in elements if isinstance(element, ast.Ident))
     return variables & others
-
-
-def _inside(declaration: ast.Declaration) -> Iterator[ast.Node]:
-    """Every node of a declaration, except those that become annotations, where Python sees no variables."""
-    yield declaration
-    for child in children(declaration):
-        if isinstance(child, ast.Parameter):
-            yield child
-        elif not isinstance(child, ast.TypeName | ast.OptionalType | ast.CollectionType | ast.IntervalType):
-            yield from descendants(child)

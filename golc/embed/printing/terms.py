@@ -221,9 +221,7 @@ def _element(names: Names, element: ast.Ident | ast.Number, strings: bool) -> Do
     match element:
         case ast.Number(value=value):
             return str(value)
-        case ast.Ident(text=text) if text in names.symbols and not strings:
-            return names.symbols[text]
-    return quoted(element.text)
+    return quoted(element.text) if strings else names.element(element.text)
 
 
 def _alternatives(pieces: list[Doc]) -> Doc:
