@@ -10,6 +10,7 @@ from typing import Any, overload
 from golc.diagnostics import Code, Findings, Source, Span
 from golc.embed import words
 from golc.embed.clauses import Clauses, table_of
+from golc.embed.depth import check_depth
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.functions import translated
 from golc.embed.names import golc_name, new_name
@@ -20,7 +21,7 @@ from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
 from golc.theory.recursion import deep_recursion
 
-Making = Callable[[], "tree.Declaration | None"]
+Making = Callable[[], "tree.Declaration"]
 """Translates a declaration when the theory is complete."""
 
 MISSING: Any = object()
@@ -294,11 +295,12 @@ class Theory:
             for making in self._makings([]):
                 try:
                     node = making()
+                    check_depth(node)
                 except Refused as error:
                     for diagnostic in error.diagnostics:
                         findings.add(diagnostic)
                 else:
-                    made += [] if node is None else [node]
+                    made.append(node)
         source = self._place.source
         others = {id(node.span.source): node.span.source for node in made if node.span.source is not source}
         file = tree.File(self._domain, tuple(made), span=self._place)
