@@ -11,7 +11,6 @@ from golc.embed.printing.strings import quoted
 from golc.embed.printing.terms import call_doc, keyword, maybe, optional, source_doc, term_doc, type_doc
 from golc.syntax import tree as ast
 
-
 ELLIPSIS = "..."
 """The body of a function that says nothing more, which stands in the line of its head."""
 
