@@ -117,6 +117,9 @@ class Code(Enum):
     LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
     IDLE_IGNORE = ("GL032", "a `golc: ignore` comment has no effect")
 
+    PYTHON = ("GL033", "a Python function is not there, or does not fit its declaration")
+    NOT_EXECUTED = ("GL034", "Python code is not executed")
+
     EFFECT_CONFLICT = ("GL040", "two effects of an action may give one fluent two values")
     EFFECT_FAILS = ("GL041", "an action can go wrong where it is possible")
     INVARIANT_NOT_KEPT = ("GL042", "an action may break an invariant")
@@ -158,6 +161,7 @@ class Code(Enum):
     UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
     TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
     TOO_LARGE = ("GL118", "a number, a set or a list grows too large")
+    EXTERN = ("GL119", "a Python function in a term fails")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 
@@ -236,6 +240,11 @@ class Findings:
 
     def add(self, diagnostic: Diagnostic) -> None:
         self.diagnostics.append(diagnostic)
+
+    def once(self, diagnostic: Diagnostic) -> None:
+        """Add a finding that may have been made on another way."""
+        if diagnostic not in self.diagnostics:
+            self.add(diagnostic)
 
     def error(
         self,

@@ -269,7 +269,7 @@ class Theory:
     @cached_property
     def _queries(self) -> Queries:
         assert self._examined.file is not None
-        return Queries(self._examined.file, self.elaborated.source, self._examined.constants)
+        return Queries(self._examined.file, self.elaborated.source, self._examined.constants, self.elaborated.python)
 
     def _compiled_formula(self, text: str) -> Callable[..., Any]:
         with deep_recursion():

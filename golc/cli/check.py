@@ -40,6 +40,7 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
 @click.option("--reachable", is_flag=True, help="Show only what can happen in states that can be reached.")
+@click.option("--trust", is_flag=True, help="Execute the Python code that the files name, where a value depends on it.")
 @click.option(
     "--select", multiple=True, metavar="CODES", callback=_starts, help="Only findings whose codes begin so: GL0,GL041."
 )
@@ -54,6 +55,7 @@ def command(
     strict: bool,
     no_proofs: bool,
     reachable: bool,
+    trust: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
     constants: Mapping[str, str],
@@ -76,7 +78,7 @@ def command(
     asked = undecided = 0
     scopes: list[dict[str, Any]] = []
     for file in files:
-        report = check(file, constants, proofs=not no_proofs, reachable=reachable)
+        report = check(file, constants, proofs=not no_proofs, reachable=reachable, trust=trust)
         found = [finding for finding in report.findings if selection.wants(finding.code)]
         findings.extend(found)
         asked += report.asked

@@ -16,7 +16,7 @@ from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import Literal, Variable
 from golc.theory.types import BOOL, Collection, Enumeration, Type, show
 
-CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.GOAL, Kind.INVARIANT)
+CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.EXTERN, Kind.GOAL, Kind.INVARIANT)
 TERMS = (*CALLS, Kind.CONSTANT, Kind.SYMBOL)
 
 Resolution: TypeAlias = Variable | Literal | Signature | None
