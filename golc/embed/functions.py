@@ -81,7 +81,8 @@ class Function:
             message = f"`{name.id}` is neither a Python constant nor declared"
             raise refused(Code.UNKNOWN_NAME, message, self.place(name), help_)
         then = self.seen.get(name.id, ABSENT)
-        if then is not ABSENT and then is not value and not _alike(then, value):
+        fresh = then is ABSENT or then is vars(builtins).get(name.id)
+        if not fresh and then is not value and not _alike(then, value):
             raise self._changed(name, then, value)
         return value
 
