@@ -304,7 +304,7 @@ SECTIONS = (
             row("knows(gate = open) or possible(lit(1))"),
             row("known(gate)"),
         ),
-        "In a translated function. [Outside](embedding.md#two-kinds-of-python) `&`, `|` and `~` are written for `and`,\n"
+        "In a translated function. [Outside](embedding.md#two-kinds-of-python) `&`, `|` and `~` stand for `and`,\n"
         "`or` and `not`.",
     ),
     Section(
