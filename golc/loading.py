@@ -9,10 +9,10 @@ from pathlib import Path
 from golc.checks import check
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, Span, UserError
-from golc.imports import join
+from golc.imports import Reading, join
 from golc.syntax import tree
 from golc.syntax.parse import parse_expression, parse_file
-from golc.syntax.text import read_source
+from golc.syntax.text import read_domain
 from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
@@ -49,21 +49,26 @@ class Examined:
 
 
 def examine(
-    path: str | Path, constants: Mapping[str, str] | None = None, goal: str | None = None, proofs: bool = False
+    path: str | Path,
+    constants: Mapping[str, str] | None = None,
+    goal: str | None = None,
+    proofs: bool = False,
+    read: Reading = read_domain,
 ) -> Examined:
     """What is to be said of a domain file, including what it imports.
 
-    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account.
+    ``constants`` and ``goal`` are as for ``load``; with ``proofs`` also what takes all situations into account;
+    ``read`` gives the texts.
     """
     try:
-        source = read_source(path)
+        source = read(path)
     except UserError as error:
         return Examined(None, error.diagnostics)
     findings = Findings()
     file = parse_file(source, findings)
     if file is None:
         return Examined(None, tuple(sorted(findings.diagnostics, key=by_place((source,)))), sources=(source,))
-    joined = join(file, source, findings)
+    joined = join(file, source, findings, read)
     return examine_file(joined.file, joined.sources, findings, constants, goal, proofs)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import click
@@ -12,6 +13,9 @@ from golc.diagnostics import counted
 
 if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
+    from golc.fixing.rounds import Looked, Outcome
+    from golc.fixing.texts import Texts
+    from golc.reporting.selection import Selection
     from golc.theory.theory import BasicActionTheory
 
 LINES = ("text", "github")
@@ -44,6 +48,8 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 @click.option(
     "--ignore", multiple=True, metavar="CODES", callback=_starts, help="No findings whose codes begin so: GL027."
 )
+@click.option("--fix", "fixing", is_flag=True, help="Put right what is safe to put right, and write the files.")
+@click.option("--diff", is_flag=True, help="Change nothing: show what --fix would change.")
 @constants_option
 @console_options
 def command(
@@ -53,6 +59,8 @@ def command(
     no_proofs: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
+    fixing: bool,
+    diff: bool,
     constants: Mapping[str, str],
     console: Console,
 ) -> int:
@@ -63,32 +71,115 @@ def command(
     \b
     golc check examples/delivery/delivery.gl
     golc check --strict -D floors=12 elevator.gl
+    golc check --fix my.gl
     """
-    from golc.diagnostics import Severity
-    from golc.loading import examine
-    from golc.reporting.ignores import heed
     from golc.reporting.selection import Selection
 
+    if diff and form != "text":
+        raise click.UsageError("--diff shows a patch, and has no other --format.")
     selection = Selection(select, ignore)
-    findings: list[Diagnostic] = []
-    asked = undecided = 0
-    for file in files:
-        examined = examine(file, constants, proofs=not no_proofs)
-        found = [finding for finding in heed(examined, not no_proofs) if selection.wants(finding.code)]
-        findings.extend(found)
-        asked += examined.asked
-        undecided += examined.undecided
-        if form in LINES:
-            _write(console, found, form)
-        if console.verbosity > 0:
-            console.err(f"{file}: {_contents(examined.theory)}")
-    errors = sum(finding.severity is Severity.ERROR for finding in findings)
-    warnings = sum(finding.severity is Severity.WARNING for finding in findings)
-    if form not in LINES:
-        counts = {"errors": errors, "warnings": warnings, "questions": asked, "undecided": undecided}
-        _write_whole(console, findings, counts, form)
-    console.note(_summary(len(files), errors, warnings, undecided))
-    return int(errors > 0 or (strict and warnings > 0))
+    return _Check(files, form, strict, not no_proofs, selection, fixing, diff, constants, console).run()
+
+
+@dataclass(frozen=True)
+class _Check:
+    """What is to be done."""
+
+    files: tuple[str, ...]
+    form: str
+    strict: bool
+    proofs: bool
+    selection: Selection
+    fixing: bool
+    diff: bool
+    constants: Mapping[str, str]
+    console: Console
+
+    def run(self) -> int:
+        """Check all files; the exit code."""
+        from golc.cli.fixing import show, write
+        from golc.fixing.texts import Texts
+
+        texts, total, written = Texts(), _Total(), True
+        for file in self.files:
+            first = self.look(file, texts)
+            outcome = self.fixed(file, texts, first)
+            total.add(first if self.diff else outcome.looked, len(outcome.fixed))
+            if self.fixing and not self.diff:
+                written &= write(self.console, texts.take())
+            if self.form in LINES and not self.diff:
+                _write(self.console, outcome.looked.wanted, self.form)
+            if self.console.verbosity > 0:
+                self.console.err(f"{file}: {_contents(outcome.looked.examined.theory)}")
+        if self.diff:
+            show(texts.take())
+        elif self.form not in LINES:
+            _write_whole(self.console, total, self.form)
+        self.console.note(total.summary(len(self.files), self.fixing, self.diff))
+        return int(not written or total.errors > 0 or (self.strict and total.warnings > 0))
+
+    def look(self, file: str, texts: Texts) -> Looked:
+        """What is found in a file."""
+        from golc.fixing.rounds import Looked
+        from golc.loading import examine
+        from golc.reporting.ignores import heed
+
+        examined = examine(file, self.constants, proofs=self.proofs, read=texts.read)
+        wanted = (finding for finding in heed(examined, self.proofs) if self.selection.wants(finding.code))
+        return Looked(examined, tuple(wanted))
+
+    def fixed(self, file: str, texts: Texts, first: Looked) -> Outcome:
+        """What is found when all is fixed that is to be."""
+        from golc.cli.fixing import tell
+        from golc.fixing.rounds import Outcome, fix
+
+        if not self.fixing and not self.diff:
+            return Outcome(first)
+        outcome = fix(texts, first, lambda: self.look(file, texts))
+        tell(self.console, outcome, self.diff)
+        return outcome
+
+
+class _Total:
+    """What was found in all files."""
+
+    def __init__(self) -> None:
+        self.findings: list[Diagnostic] = []
+        self.asked = self.undecided = self.fixed = 0
+
+    def add(self, looked: Looked, fixed: int) -> None:
+        self.findings += looked.wanted
+        self.asked += looked.examined.asked
+        self.undecided += looked.examined.undecided
+        self.fixed += fixed
+
+    @property
+    def errors(self) -> int:
+        return self.count("error")
+
+    @property
+    def warnings(self) -> int:
+        return self.count("warning")
+
+    def count(self, severity: str) -> int:
+        return sum(finding.severity.value == severity for finding in self.findings)
+
+    def counts(self) -> dict[str, int]:
+        """The numbers that stand beside the findings in JSON and SARIF."""
+        asked = {"questions": self.asked, "undecided": self.undecided}
+        return {"errors": self.errors, "warnings": self.warnings, "fixed": self.fixed, **asked}
+
+    def summary(self, files: int, fixing: bool, diff: bool) -> str:
+        kinds = ((self.errors, "error"), (self.warnings, "warning"))
+        found = ", ".join(counted(number, what) for number, what in kinds if number)
+        done = f"{counted(self.fixed, 'finding')} fixed, " if self.fixed and not diff else ""
+        parts = [f"checked {counted(files, 'file')}: {done}{found or ('nothing left' if done else 'nothing found')}"]
+        if self.undecided:
+            parts.append(f"{counted(self.undecided, 'question')} not decided")
+        able = self.fixed if diff else sum(finding.fix is not None for finding in self.findings)
+        if able and (diff or not fixing):
+            parts.append(f"--fix would fix {able}" + (" of them" if not diff else ""))
+        return "; ".join(parts)
 
 
 def _write(console: Console, findings: Iterable[Diagnostic], form: str) -> None:
@@ -101,20 +192,15 @@ def _write(console: Console, findings: Iterable[Diagnostic], form: str) -> None:
         console.out(annotation(finding) if form == "github" else render(finding, console.colored(sys.stdout)) + "\n")
 
 
-def _write_whole(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, int], form: str) -> None:
+def _write_whole(console: Console, total: _Total, form: str) -> None:
     import json
 
     from golc.rendering import to_json
     from golc.reporting import sarif
 
-    json_ = {"findings": [to_json(finding) for finding in findings], **counts}
-    console.out(json.dumps(sarif.log(findings, counts) if form == "sarif" else json_, indent=2))
-
-
-def _summary(files: int, errors: int, warnings: int, undecided: int) -> str:
-    found = [counted(number, what) for number, what in ((errors, "error"), (warnings, "warning")) if number]
-    open_ = f"; {counted(undecided, 'question')} not decided" if undecided else ""
-    return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}{open_}"
+    counts = total.counts()
+    json_ = {"findings": [to_json(finding) for finding in total.findings], **counts}
+    console.out(json.dumps(sarif.log(total.findings, counts) if form == "sarif" else json_, indent=2))
 
 
 def _contents(theory: BasicActionTheory | None) -> str:
