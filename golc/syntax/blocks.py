@@ -44,7 +44,7 @@ def wrong_layout(part: Span, error: LayoutError) -> Diagnostic:
 
 def missing_block(failure: Failure) -> Diagnostic | None:
     """Nothing is indented below a colon."""
-    if failure.accepts != {"_INDENT"} or failure.previous is None:
+    if failure.accepts != {"_INDENT"} or failure.previous is None or failure.bad is None:
         return None
     word = str(failure.line_before[0]) if failure.line_before else ""
     empty = {"device": "; without any, leave the colon out", "action": "", "exog": ""}

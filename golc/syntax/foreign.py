@@ -121,6 +121,8 @@ def foreign_sign(failure: Failure) -> Diagnostic | None:
     span = failure.at(start, start + len(sign))
     if sign in SIGNS:
         meaning, ours = SIGNS[sign]
+        if ours == "=" and "ASSIGN" in failure.accepts:
+            meaning, ours = "a change", ":="
         fix = _quoted(failure, span) if sign in QUOTES else None if sign in UNCERTAIN else instead(span, ours)
         return failure.finding(Code.FOREIGN, f"{meaning} is `{ours}`, not `{sign}`", span, f"write `{ours}`", fix=fix)
     message, help = PHRASES[sign]

@@ -51,20 +51,25 @@ def diagnose(
         return Diagnostic(Code.SYNTAX, "this does not follow the grammar", part), None
     else:
         found = next(finding for hint in HINTS if (finding := hint(failed)) is not None)
-    if found.fix is not None and not _leads_on(part, start, text, found.span, found.fix):
+    if found.fix is not None and not _leads_on(part, start, text, found, found.fix):
         found = replace(found, fix=None)
     return found, failed
 
 
-def _leads_on(part: Span, start: str, text: str, place: Span, fix: Fix) -> bool:
-    """Whether a part of a source can be read with a fix, at least to beyond the place of the finding."""
+def _leads_on(part: Span, start: str, text: str, found: Diagnostic, fix: Fix) -> bool:
+    """Whether a part of a source can be read with a fix, at least to beyond the place of the finding.
+
+    Once lines are indented rightly, what is found next may be what is missing in the line before.
+    """
     edits = [edit for edit in fix.edits if part.start <= edit.span.start and edit.span.end <= part.end]
     fixed = Source(part.source.name, applied(text, edits, part.start))
     try:
         parser().parse(fixed.text, start=start)
     except (UnexpectedInput, LayoutError) as error:
+        if found.code is Code.INDENTATION and not isinstance(error, LayoutError):
+            return True
         whole = Span(fixed, 0, len(fixed.text) - (len(text) - len(part.text)))
         next_, _ = diagnose(whole, start, fixed.text, error)
-        end = moved(place.end, edits) - part.start
+        end = moved(found.span.end, edits) - part.start
         return next_.span.start > end or (next_.span.start == end < next_.span.end)
     return True
