@@ -165,6 +165,15 @@ class Code(Enum):
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 
+    # 140..149: theories in Python
+    PYTHON_SYNTAX = ("GL140", "the Python of a theory cannot be read")
+    PYTHON_RAISED = ("GL141", "the Python of a theory fails")
+    PYTHON_TRUTH = ("GL142", "Python asks a term for its truth")
+    PYTHON_MEANING = ("GL143", "Python that has no meaning in a theory")
+    PYTHON_VALUE = ("GL144", "a Python value that means nothing in a theory")
+    PYTHON_CHANGED = ("GL145", "a name of Python has changed since the function was declared")
+    NO_THEORY = ("GL146", "a Python file does not hold exactly one theory")
+
     NEVER_FIRES = ("GL071", "an interrupt can never fire")
     STUCK = ("GL072", "an action can never be possible where it stands")
     CONSTANT = ("GL073", "a condition is always true or always false")
@@ -172,6 +181,7 @@ class Code(Enum):
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")
+    SEVERAL_MESSAGES = ("GL081", "a number takes several messages")
     NUMBER_CLASH = ("GL082", "two bindings take the same number")
     NUMBER_RANGE = ("GL083", "a number does not fit the brick")
     BINDING_UNBOUNDED = ("GL084", "a binding ranges over a type whose values cannot be listed")

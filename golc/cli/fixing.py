@@ -6,7 +6,7 @@ import errno
 import os
 import sys
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from golc.cli.common import Console, completed, patch
 
@@ -18,7 +18,7 @@ MARK = b"\xef\xbb\xbf"
 """The byte order mark, which a file keeps that has one."""
 
 
-def tell(console: Console, outcome: Outcome, would: bool) -> None:
+def tell(console: Console, outcome: Outcome[Any], would: bool) -> None:
     """Say what was fixed, and what was not and why."""
     for finding in outcome.fixed:
         console.note(f"{'would fix' if would else 'fixed'} {finding.span} {finding.code.code}: {finding.message}")

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
+from typing import Generic, TypeVar
 
 from golc.diagnostics import Diagnostic, Edit, Severity, Source, Span
 from golc.edits import compatible, edits_of, in_order, moved
 from golc.fixing.texts import Texts
-from golc.loading import Examined
 from golc.syntax.layout import split
 
 MOST = 1000
@@ -19,10 +19,13 @@ LAST_OF_SYNTAX = "GL009"
 
 @dataclass(frozen=True)
 class Looked:
-    """What is found in a file, and what of it is wanted, which is all that may be fixed."""
+    """All that is found in a file, and what of it is wanted, which is all that may be fixed."""
 
-    examined: Examined
+    found: tuple[Diagnostic, ...]
     wanted: tuple[Diagnostic, ...]
+
+
+L = TypeVar("L", bound=Looked)
 
 
 @dataclass(frozen=True)
@@ -34,15 +37,15 @@ class Refused:
 
 
 @dataclass
-class Outcome:
+class Outcome(Generic[L]):
     """What is found in the end, the findings that were fixed, and those whose fixes would have made things worse."""
 
-    looked: Looked
+    looked: L
     fixed: list[Diagnostic] = field(default_factory=list)
     refused: list[Refused] = field(default_factory=list)
 
 
-def fix(texts: Texts, first: Looked, look: Callable[[], Looked]) -> Outcome:
+def fix(texts: Texts, first: L, look: Callable[[], L]) -> Outcome[L]:
     """Carry out all fixes of what was found first, and of what ``look`` finds then in the changed texts."""
     outcome = Outcome(first)
     for _ in range(MOST):
@@ -54,7 +57,7 @@ def fix(texts: Texts, first: Looked, look: Callable[[], Looked]) -> Outcome:
     return outcome
 
 
-def _round(texts: Texts, look: Callable[[], Looked], outcome: Outcome, able: list[Diagnostic]) -> None:
+def _round(texts: Texts, look: Callable[[], L], outcome: Outcome[L], able: list[Diagnostic]) -> None:
     """Carry out some fixes at once; if that makes anything worse, the first that does not by itself."""
     before = texts.changed
     for some in (able, *([one] for one in able if len(able) > 1)):
@@ -78,8 +81,8 @@ def _worse(before: Looked, fixed: list[Diagnostic], after: Looked) -> tuple[bool
     """
     edits = edits_of(fixed)
     places = {_place(finding, _of(finding.span.source, edits)) for finding in fixed}
-    known = {_place(finding, _of(finding.span.source, edits)) for finding in before.examined.findings}
-    for finding in after.examined.findings:
+    known = {_place(finding, _of(finding.span.source, edits)) for finding in before.found}
+    for finding in after.found:
         if _place(finding, ()) in places:
             return True, None
         if finding.severity is Severity.ERROR and _place(finding, ()) not in known:

@@ -3,22 +3,19 @@
 from __future__ import annotations
 
 import importlib.util
-import math
 import sys
 import traceback
 from collections.abc import Callable, Sequence
-from decimal import Decimal
-from fractions import Fraction
 from pathlib import Path
 from types import ModuleType
 
 from golc.diagnostics import DeviceError
 from golc.runtime.devices.base import Args, Bindings, Device, translated
-from golc.theory.fitting import collection
+from golc.theory.foreign import golc_value
 from golc.theory.ground import describe
 from golc.theory.suggest import did_you_mean
 from golc.theory.theory import BasicActionTheory, Binding, ByCall
-from golc.theory.types import Type, Value, number
+from golc.theory.types import Type, Value
 
 Function = Callable[..., object]
 
@@ -87,31 +84,6 @@ class Host(Device):
             return meant
         call = f"`{function_name(binding)}` in {self._path}"
         raise DeviceError(f"{call} returned {value!r}, which is not of type {describe(type_)}")
-
-
-FOREIGN: Value = object()
-"""What stands for a Python value that is none of golc's: it belongs to no type."""
-
-
-def golc_value(value: object, type_: Type) -> Value:
-    """The value that a Python object stands for where a type is needed.
-
-    A real number may be a ``float``, which means the decimals that Python writes; lists and sets may be mutable.
-    """
-    whole = collection(type_)
-    match value:
-        case None | bool() | int() | str():
-            return value
-        case Fraction() if "real" in type_.kinds:
-            return number(value)
-        case float() | Decimal() if "real" in type_.kinds and math.isfinite(value):
-            return number(Fraction(str(value)))
-        case list() | tuple() if whole is not None and whole.kind == "list":
-            return tuple([golc_value(element, whole.element) for element in value])
-        case set() | frozenset() if whole is not None and whole.kind == "set":
-            return frozenset([golc_value(element, whole.element) for element in value])
-        case _:
-            return FOREIGN
 
 
 def function_name(binding: Binding) -> str:

@@ -13,7 +13,6 @@ from hypothesis import strategies as st
 from golc.diagnostics import Findings, Source
 from golc.fixing.rounds import Looked, fix
 from golc.fixing.texts import Texts
-from golc.loading import Examined
 from golc.syntax import tree as ast
 from golc.syntax.parse import parse_file
 
@@ -74,8 +73,8 @@ SLIPS = [
     (r" and ", " && "),
     (r" and ", " ∧ "),
     (r"^( *poss\b.*) and ", r"\1 adn "),
-    (r"(?<=\w) or (?=\w)", " || "),
-    (r"(?<=\w) or (?=\w)", "\xa0or "),
+    (r"(?<=[\w)]) or (?=\w)", " || "),
+    (r"(?<=[\w)]) or (?=\w)", "\xa0or "),
     (r"\bnot (?!in\b)", "!"),
     (r"\bnot (?!in\b)", r"\\+ "),
     (r"\bimplies\b", "→"),
@@ -141,7 +140,7 @@ def looker(texts: Texts, path: Path) -> Callable[[], Looked]:
         source, findings = texts.read(path), Findings()
         parse_file(source, findings)
         found = tuple(findings.diagnostics)
-        return Looked(Examined(None, found, sources=(source,)), found)
+        return Looked(found, found)
 
     return look
 

@@ -10,7 +10,6 @@ from golc.cli import invoke
 from golc.diagnostics import Code, Diagnostic, Edit, Fix, Source, Span
 from golc.fixing.rounds import Looked, fix
 from golc.fixing.texts import Texts
-from golc.loading import Examined
 
 HEAD = "domain d\nfluent f = true\nfluent n: 1..3 = 1\naction a\n"
 
@@ -125,7 +124,7 @@ def test_a_fix_that_makes_it_worse_is_not_carried_out_and_keeps_no_other_from_it
             for letter, replacement in (("a", "x"), ("b", "y"), ("c", "c"), ("y", "b"))
             if (place := source.text.find(letter)) >= 0
         ]
-        return Looked(Examined(None, tuple(findings), sources=(source,)), tuple(findings))
+        return Looked(tuple(findings), tuple(findings))
 
     outcome = fix(texts, look(), look)
     assert texts.read(path).text == "x b c"
