@@ -146,7 +146,7 @@ def _phrase(failure: Failure, span: Span) -> Fix | None:
         return None
     if span.text == ";":
         return removal(span)
-    if span.text == "?" and failure.line[0].type == "NAME":
+    if span.text == "?" and failure.line and failure.line[0].type == "NAME":
         start = failure.span(failure.line[0]).start
         return Fix("write `test` before it", (Edit(Span(span.source, start, start), "test "), Edit(span, "")))
     return None
