@@ -79,6 +79,11 @@ class Run:
         lines = [f"{entry.time:7.2f} s  {'← ' if entry.exogenous else ''}{entry}" for entry in self.history]
         return "\n".join([*lines, self.summary(), str(self.state)])
 
+    def _repr_html_(self) -> str:
+        from golc.notebook import run_html
+
+        return run_html(self)
+
     def __repr__(self) -> str:
         return f"<Run of {self.summary()}>"
 

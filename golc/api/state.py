@@ -9,9 +9,8 @@ from typing import TypeAlias
 from golc.situation import worlds
 from golc.situation.dynamics import Dynamics
 from golc.situation.summary import summary
-from golc.theory.order import spelt
 from golc.theory.suggest import did_you_mean
-from golc.theory.types import Value, show, show_call
+from golc.theory.types import Value, show_call
 
 Key: TypeAlias = str | tuple[Value, ...]
 """A ground fluent: its name, its text as in ``"holding(4)"``, or its name and its arguments."""
@@ -90,8 +89,7 @@ class State(Mapping[Key, Value]):
     def __repr__(self) -> str:
         return f"<State: {'; '.join(summary(self.dynamics, self.raw))}>"
 
-    def shown(self) -> Iterator[tuple[str, str]]:
-        """Each ground fluent with its value as golc writes them."""
-        fluents = self.dynamics.theory.fluents
-        for text, place in self._texts.items():
-            yield text, show(spelt(self._known[place], fluents[str(place[0])].type))
+    def _repr_html_(self) -> str:
+        from golc.notebook import state_html
+
+        return state_html(self)

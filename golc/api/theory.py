@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any
 
 from golc.api import acting
 from golc.api.acting import Doing
+from golc.api.contents import as_text, tables
 from golc.api.state import State
 from golc.diagnostics import GolcError, LimitError, counted
 from golc.loading import Examined, theory_of
-from golc.planning.plans import Outcome, Plan
 from golc.program.blame import Blocked
 from golc.situation import worlds
 from golc.situation.dynamics import Dynamics
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from golc.nqc.build import BrickProgram
     from golc.planning.goals import GoalPlanning
     from golc.planning.planner import Planning
+    from golc.planning.plans import Outcome, Plan
     from golc.scenarios.play import Played
 
 ASKED = 1000
@@ -131,6 +132,17 @@ class Theory:
     def __repr__(self) -> str:
         return f"<Theory {self.name}: {self.counts()}>"
 
+    def __str__(self) -> str:
+        lines = [f"domain {self.name} ({self.path})"]
+        for table in tables(self.elaborated):
+            lines += ["", *as_text(table)]
+        return "\n".join(lines)
+
+    def _repr_html_(self) -> str:
+        from golc.notebook import theory_html
+
+        return theory_html(self)
+
     def counts(self) -> str:
         """``1 fluent, 2 actions, 1 procedure, 0 devices``: how much it declares."""
         parts = (
@@ -143,8 +155,8 @@ class Theory:
 
     # ---- what is wrong with it
 
-    def check(self, *, proofs: bool = True) -> Report:
-        """What ``golc check`` says of it; without ``proofs``, all but what takes all situations into account.
+    def check(self, *, proofs: bool = True, reachable: bool = False) -> Report:
+        """What ``golc check`` says of it; ``proofs`` and ``reachable`` are as for ``golc.check``.
 
         >>> import golc
         >>> golc.load("examples/elevator/elevator.gl").check().warnings
@@ -152,7 +164,7 @@ class Theory:
         """
         from golc.api.report import report_of
 
-        return report_of(self._examined, self, proofs)
+        return report_of(self._examined, self, proofs, reachable)
 
     def test(self) -> Iterator[Played]:
         """Runs its scenarios offline, one after the other; ``failure`` says what went wrong in one, if anything did."""
@@ -169,11 +181,11 @@ class Theory:
         >>> print(golc.load("examples/elevator/elevator.gl").explain("top"))  # doctest: +ELLIPSIS
         const top...
         """
+        from golc.explain import rendering
         from golc.explain.pages import explain
-        from golc.explain.rendering import as_latex, as_text
 
         pages = explain(self.elaborated, name)
-        return as_latex(pages) if latex else as_text(pages)
+        return rendering.as_latex(pages) if latex else rendering.as_text(pages)
 
     # ---- states and actions
 
@@ -257,7 +269,7 @@ class Theory:
     @cached_property
     def _queries(self) -> Queries:
         assert self._examined.file is not None
-        return Queries(self._examined.file, self.elaborated.source, self._examined.constants)
+        return Queries(self._examined.file, self.elaborated.source, self._examined.constants, self.elaborated.python)
 
     def _compiled_formula(self, text: str) -> Callable[..., Any]:
         with deep_recursion():

@@ -29,6 +29,8 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 )
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
+@click.option("--reachable", is_flag=True, help="Show only what can happen in states that can be reached.")
+@click.option("--trust", is_flag=True, help="Execute the Python code that the files name, where a value depends on it.")
 @click.option(
     "--select", multiple=True, metavar="CODES", callback=_starts, help="Only findings whose codes begin so: GL0,GL041."
 )
@@ -44,6 +46,8 @@ def command(
     form: str,
     strict: bool,
     no_proofs: bool,
+    reachable: bool,
+    trust: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
     fixing: bool,
@@ -66,4 +70,6 @@ def command(
     if diff and form != "text":
         raise click.UsageError("--diff shows a patch, and has no other --format.")
     selection = Selection(select, ignore)
-    return Checking(files, form, strict, not no_proofs, selection, fixing, diff, constants, console).run()
+    return Checking(
+        files, form, strict, not no_proofs, reachable, trust, selection, fixing, diff, constants, console
+    ).run()

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from golc.api.report import Report, report_of
 from golc.api.theory import Theory
@@ -39,6 +40,8 @@ class Checking:
     form: str
     strict: bool
     proofs: bool
+    reachable: bool
+    trust: bool
     selection: Selection
     fixing: bool
     diff: bool
@@ -51,21 +54,21 @@ class Checking:
         for file in self.files:
             first = self.look(file, texts)
             outcome = self.outcome(file, texts, first)
-            total.add(first if self.diff else outcome.looked, len(outcome.fixed))
+            total.add(file, first if self.diff else outcome.looked, len(outcome.fixed))
             if self.fixing and not self.diff:
                 written &= write(self.console, texts.take())
             self.say(file, outcome.looked)
         if self.diff:
             show(texts.take())
         elif self.form not in LINES:
-            _write_whole(self.console, total, self.form)
+            _write_whole(self.console, total, self.form, self.reachable)
         self.console.note(total.summary(len(self.files), self.fixing, self.diff))
         return int(not written or total.errors > 0 or (self.strict and total.warnings > 0))
 
     def look(self, file: str, texts: Texts) -> Seen:
         """What is found in a file."""
-        examined = examine(file, self.constants, read=texts.read)
-        report = report_of(examined, None if examined.theory is None else Theory(examined), self.proofs)
+        examined = examine(file, self.constants, trust=self.trust, read=texts.read)
+        report = report_of(examined, None if examined.theory is None else Theory(examined), self.proofs, self.reachable)
         wanted = (finding for finding in report.findings if self.selection.wants(finding.code))
         return Seen(examined.findings, tuple(wanted), report)
 
@@ -81,6 +84,8 @@ class Checking:
         """What is written of a file before the next one."""
         if self.form in LINES and not self.diff:
             _write(self.console, seen.wanted, self.form)
+        if seen.report.scope is not None:
+            self.console.note(f"{file}: {seen.report.scope}")
         if self.console.verbosity > 0:
             theory = seen.report.theory
             contents = "not a theory" if theory is None else f"domain {theory.name} with {theory.counts()}"
@@ -92,9 +97,12 @@ class _Total:
 
     def __init__(self) -> None:
         self.findings: list[Diagnostic] = []
+        self.scopes: list[dict[str, Any]] = []
         self.asked = self.undecided = self.fixed = 0
 
-    def add(self, seen: Seen, fixed: int) -> None:
+    def add(self, file: str, seen: Seen, fixed: int) -> None:
+        if seen.report.scope is not None:
+            self.scopes.append({"file": file, **asdict(seen.report.scope)})
         self.findings += seen.wanted
         self.asked += seen.report.asked
         self.undecided += seen.report.undecided
@@ -112,7 +120,7 @@ class _Total:
         """How many findings there are, but for the questions that are open, which have a number of their own."""
         return sum(each.severity is severity and each.code is not Code.NOT_DECIDED for each in self.findings)
 
-    def counts(self) -> dict[str, int]:
+    def counts(self) -> dict[str, Any]:
         """The numbers that stand beside the findings in JSON and SARIF."""
         asked = {"questions": self.asked, "undecided": self.undecided}
         return {"errors": self.errors, "warnings": self.warnings, "fixed": self.fixed, **asked}
@@ -135,7 +143,7 @@ def _write(console: Console, findings: Iterable[Diagnostic], form: str) -> None:
         console.out(annotation(finding) if form == "github" else render(finding, console.colored(sys.stdout)) + "\n")
 
 
-def _write_whole(console: Console, total: _Total, form: str) -> None:
-    counts = total.counts()
+def _write_whole(console: Console, total: _Total, form: str, reachable: bool) -> None:
+    counts = total.counts() | ({"reachable": total.scopes} if reachable else {})
     json_ = {"findings": [to_json(finding) for finding in total.findings], **counts}
     console.out(json.dumps(sarif.log(total.findings, counts) if form == "sarif" else json_, indent=2))

@@ -43,6 +43,11 @@ class Plan:
     def __str__(self) -> str:
         return "\n".join(lines_of(self)) or "nothing is to be done"
 
+    def _repr_html_(self) -> str:
+        from golc.notebook import plan_html
+
+        return plan_html(self)
+
     def __repr__(self) -> str:
         steps = [*map(str, self.steps), *([counted(len(self.cases), "case")] if self.cases else [])]
         return f"<Plan: {', '.join(steps) or 'nothing is to be done'}>"
