@@ -6,11 +6,14 @@ place where it is read.
 
 from __future__ import annotations
 
+import itertools
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any, TypeAlias
 
 import z3
 
+from golc.diagnostics import ProgramError
 from golc.proofs.calculated import calculated, conjunction, disjunction, with_ok
 from golc.proofs.collected import collection, distinct, parts_of
 from golc.proofs.encoded import (
@@ -31,8 +34,10 @@ from golc.proofs.encoded import (
     total,
     truth,
 )
-from golc.proofs.symbols import NotDecidedError
+from golc.proofs.symbols import NeedsPythonError, NotDecidedError
 from golc.proofs.values import Values, evaluated
+from golc.theory.border import PythonFunction, extern_value
+from golc.theory.errors import NotExecutedError
 from golc.theory.fitting import size, strip_optional
 from golc.theory.terms import (
     Binder,
@@ -51,7 +56,7 @@ from golc.theory.terms import (
     Term,
     Variable,
 )
-from golc.theory.theory import BasicActionTheory, Parameter
+from golc.theory.theory import BasicActionTheory, Parameter, Static
 from golc.theory.types import REAL, Type, Value
 
 MOST_INSTANCES = 20_000
@@ -207,6 +212,8 @@ class Encoder(Values):
                 found = here if found is None else selected(fits, here, found)
             assert found is not None
             return with_ok(found, ok)
+        if isinstance(static.body, PythonFunction):
+            return self._extern(static, values, ok)
         if self._depth >= DEEPEST:
             raise NotDecidedError(f"the recursion of `{static.name}` is followed")
         self._depth += 1
@@ -215,6 +222,24 @@ class Encoder(Values):
         finally:
             self._depth -= 1
         return with_ok(value, both(ok, self.within(value, static.type)))
+
+    def _extern(self, static: Static, args: Env, ok: Formula) -> Encoded:
+        """A function of Python, as a table."""
+        types = [parameter.type for parameter in static.parameters]
+        if not all(type_.finite for type_ in types) or math.prod(map(size, types)) > MOST_INSTANCES:
+            raise NotDecidedError(f"`{static.name}` has more arguments than a table of its values can have")
+        found = Encoded(NUMBER, 0)
+        for key in itertools.product(*[type_.values for type_ in types]):
+            fits = both(*[same(arg, self.literal(value)) for arg, value in zip(args, key, strict=True)])
+            try:
+                found = selected(
+                    fits, self.literal(extern_value(static, key, static.span), strip_optional(static.type)), found
+                )
+            except NotExecutedError as error:
+                raise NeedsPythonError(error.why) from None
+            except ProgramError:
+                ok = both(ok, negated(fits))
+        return with_ok(found, ok)
 
     def _epistemic(self, term: Epistemic, env: Env, read: Read) -> Encoded:
         guess = z3.Bool(self.fresh("known"))
