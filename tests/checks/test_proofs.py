@@ -83,6 +83,23 @@ CASES = {
         "    causes x := 2\n    causes on(x + 1) := true\n",
         [],
     ),
+    "parameters that cannot be gone through and do not matter": (
+        "exog tell(s: string, r: real, l: list[int]):\n    poss x < 3\n    causes x := x + 1\ninvariant shut: x >= 0\n",
+        [],
+    ),
+    "a set that loses what another one gets": (
+        "fluent here: set[door] = {open, locked}\nfluent there(n: small): set[door] = {}\n"
+        "invariant once: forall d: door. d in here or d in there(0) or not exists n: small. d in there(n)\n"
+        "action move(some_: set[door]):\n    poss forall d in some_. d in here\n    causes here := here - some_\n"
+        "    causes there(0) := there(0) + some_\n",
+        [],
+    ),
+    "what is in a list, if it has ten elements or none": (
+        "fluent l: list[door] = []\ninvariant shut: open not in l or gate = open\n"
+        "action a:\n    poss gate = open\n    causes l := l + [open]\n"
+        "action b:\n    causes gate := closed\n    causes l := l - [open]\n",
+        [],
+    ),
     "an unbounded integer that leaves a small type": (
         "action a:\n    poss y >= 0\n    causes x := y\n",
         [("GL041", 10, "`a` can go wrong: `x` would be 4, which is outside `small` (0..3)")],
