@@ -82,7 +82,7 @@ class Code(Enum):
     """Every finding that golc can make: its stable code and its title."""
 
     # 001..009: text and syntax
-    UNREADABLE = ("GL001", "the file cannot be read as text")
+    UNREADABLE = ("GL001", "a file cannot be read as text, or cannot be written")
     SYNTAX = ("GL002", "the text does not follow the grammar")
     INDENTATION = ("GL003", "the indentation makes no block")
     MISSING = ("GL004", "a colon, a bracket or a block is missing")
@@ -158,6 +158,7 @@ class Code(Enum):
     UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
     TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
     TOO_LARGE = ("GL118", "a number, a set or a list grows too large")
+    EVENT_OF_BRICK = ("GL119", "a script reports what the brick reports by itself")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
 

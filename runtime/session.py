@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from golc.diagnostics import DeviceError, Diagnostic, Findings, Source, Span
+from golc.diagnostics import Code, DeviceError, Diagnostic, Findings, Source, Span
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
@@ -44,6 +44,7 @@ if TYPE_CHECKING:
 
 SIMULATED = "sim"
 """The port that stands for a simulated brick."""
+DOUBLE_HELP = "what happens to the robot is told by the brick: leave the line out"
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,8 @@ class _Session:
         schedule = Schedule() if settings.events is None else read_schedule(settings.events, self.theory)
         observers = self.observers()
         devices = build_devices(self.theory, Surroundings(self.desk, self.speak, self.link()))
-        clock = Clock(time.monotonic, time.monotonic(), settings.speed)
+        self.warn_of_doubles(schedule)
+        clock = self.clock()
         timetable = Timetable(schedule.only(self.is_ours), self.inbox, clock)
         sources = [*self.sources(devices, clock), timetable]
         policy = self.policy(clock)
@@ -171,6 +173,14 @@ class _Session:
             self.stack.enter_context(robot.drawn(settings.picture))
         return Link(str(world), settings.speed, robot.transport)
 
+    def clock(self) -> Clock:
+        """The time of the run, which is that of the world if there is one: a slow computer makes both slow."""
+        speed = self.settings.speed
+        if self.robot is None:
+            return Clock(time.monotonic, time.monotonic(), speed)
+        transport = self.robot.transport
+        return Clock(lambda: transport.now() / speed, transport.now() / speed, speed)
+
     @cached_property
     def place(self) -> Place:
         """Where the brick is simulated, if it is."""
@@ -191,6 +201,18 @@ class _Session:
             return True
         return not (self.simulated and any(actions.handles(event.action, event.args) for actions in self.maps.values()))
 
+    def warn_of_doubles(self, schedule: Schedule) -> None:
+        """Say of the lines of the events file that are played here that the brick reports the same."""
+        findings, told = Findings(), set[str]()
+        for entry in schedule.only(self.is_ours).entries:
+            name = entry.event.action
+            bricks = [brick for brick, actions in self.maps.items() if actions.handles(name, entry.event.args)]
+            if bricks and name not in told:
+                told.add(name)
+                message = f"`{name}` is reported by the script, and by the brick `{bricks[0]}` as well"
+                findings.warning(Code.EVENT_OF_BRICK, message, entry.span, help=DOUBLE_HELP)
+        self.voice.complain(tuple(findings.diagnostics))
+
     def sources(self, devices: Sequence[Device], clock: Clock) -> list[EventSource]:
         """Everything that may report exogenous actions, but the schedule."""
         found: list[EventSource] = []
@@ -208,7 +230,6 @@ class _Session:
 
     def policy(self, clock: Clock) -> Policy:
         settings = self.settings
-        idle = settings.stop_when_idle
         return Policy(
             on_impossible=settings.on_impossible,
             on_surprise=settings.on_surprise,
@@ -216,7 +237,7 @@ class _Session:
             if settings.on_failure is None
             else always(settings.on_failure),
             retry_after=clock.real(1.0),
-            stop_when_idle=None if idle is None else clock.real(idle),
+            stop_when_idle=settings.stop_when_idle,
             check_invariants=settings.check_invariants,
             confirm=AskBeforeActions(self.desk) if settings.step else None,
             interrupt=self.desk.interrupt,

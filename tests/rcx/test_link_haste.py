@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -38,7 +39,7 @@ def test_nothing_is_sent_before_what_was_sent_is_out(fast: Any) -> None:
     brick.abort()
     times = [time for time, _ in line.sent]
     assert line.numbers == [81, 81, 81, 83]
-    assert all(later - sooner > 5.0 for sooner, later in zip(times, times[1:], strict=False))
+    assert all(later - sooner > 5.0 for sooner, later in pairwise(times))
 
 
 def test_a_fast_line_that_keeps_up_is_as_fast_as_ever(fast: Any) -> None:

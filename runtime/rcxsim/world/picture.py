@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 from typing import NamedTuple
 from xml.sax.saxutils import escape
 
+from golc.diagnostics import DeviceError
 from golc.runtime.rcxsim.world.floor import Floor, Rectangle
 from golc.runtime.rcxsim.world.geometry import Point, Pose
 from golc.runtime.rcxsim.world.record import Happening, Record, Step, simplified
 from golc.runtime.rcxsim.world.robot import Robot
 from golc.runtime.rcxsim.world.scene import Scene
+from golc.syntax.text import unwritable
 
 MARGIN = 60.0
 """mm around everything."""
@@ -42,6 +46,26 @@ class _Name(NamedTuple):
     x: float
     y: float
     anchor: str
+
+
+@contextmanager
+def drawing(path: Path, picture: Callable[[], str]) -> Iterator[None]:
+    """Write a picture into a file in the end; the file is opened in the beginning.
+
+    Raises UserError in the beginning, and DeviceError in the end, if the file cannot be written.
+    """
+    try:
+        file = path.open("w", encoding="utf-8")
+    except OSError as error:
+        raise unwritable(path, error) from None
+    try:
+        yield
+    finally:
+        try:
+            with file:
+                file.write(picture())
+        except OSError as error:
+            raise DeviceError(f"cannot write the picture {path}: {error.strerror}") from None
 
 
 def draw(scene: Scene, record: Record, pose: Pose) -> str:
@@ -201,7 +225,8 @@ def _marks(happenings: Sequence[Happening], text: float) -> Iterator[str]:
         side = list(SHOWN.values()).index(sign) - len(SHOWN) / 2
         x, y = found[0].pose.x + side * text, found[0].pose.y - text
         told = "\n".join(f"{happening.time:.1f} s: {happening.what} {happening.text}" for happening in found)
-        yield f'<text x="{_n(x)}" y="{_n(-y)}" {MIDDLE} text-anchor="middle" fill="#114">{sign}<title>{escape(told)}</title></text>'
+        place = f'x="{_n(x)}" y="{_n(-y)}" {MIDDLE} text-anchor="middle"'
+        yield f'<text {place} fill="#114">{sign}<title>{escape(told)}</title></text>'
 
 
 def _robot(robot: Robot, pose: Pose) -> Iterator[str]:
