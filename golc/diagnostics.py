@@ -82,7 +82,7 @@ class Code(Enum):
     """Every finding that golc can make: its stable code and its title."""
 
     # 001..009: text and syntax
-    UNREADABLE = ("GL001", "a file cannot be read as text, or cannot be written")
+    UNREADABLE = ("GL001", "a file cannot be read as text or written")
     SYNTAX = ("GL002", "the text does not follow the grammar")
     INDENTATION = ("GL003", "the indentation makes no block")
     MISSING = ("GL004", "a colon, a bracket or a block is missing")
