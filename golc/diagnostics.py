@@ -117,6 +117,9 @@ class Code(Enum):
     LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
     IDLE_IGNORE = ("GL032", "a `golc: ignore` comment has no effect")
 
+    PYTHON = ("GL033", "a Python function is not there, or does not fit its declaration")
+    NOT_EXECUTED = ("GL034", "Python code is not executed")
+
     EFFECT_CONFLICT = ("GL040", "two effects of an action may give one fluent two values")
     EFFECT_FAILS = ("GL041", "an action can go wrong where it is possible")
     INVARIANT_NOT_KEPT = ("GL042", "an action may break an invariant")
@@ -158,9 +161,19 @@ class Code(Enum):
     UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
     TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
     TOO_LARGE = ("GL118", "a number, a set or a list grows too large")
-    EVENT_OF_BRICK = ("GL119", "a script reports what the brick reports by itself")
+    EXTERN = ("GL119", "a Python function in a term fails")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
+    EVENT_OF_BRICK = ("GL122", "a script reports what the brick reports by itself")
+
+    # 140..149: theories in Python
+    PYTHON_SYNTAX = ("GL140", "the Python of a theory cannot be read")
+    PYTHON_RAISED = ("GL141", "the Python of a theory fails")
+    PYTHON_TRUTH = ("GL142", "Python asks a term for its truth")
+    PYTHON_MEANING = ("GL143", "Python that has no meaning in a theory")
+    PYTHON_VALUE = ("GL144", "a Python value that means nothing in a theory")
+    PYTHON_CHANGED = ("GL145", "a name of Python has changed since the function was declared")
+    NO_THEORY = ("GL146", "a Python file does not hold exactly one theory")
 
     NEVER_FIRES = ("GL071", "an interrupt can never fire")
     STUCK = ("GL072", "an action can never be possible where it stands")
@@ -169,6 +182,7 @@ class Code(Enum):
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")
+    SEVERAL_MESSAGES = ("GL081", "a number takes several messages")
     NUMBER_CLASH = ("GL082", "two bindings take the same number")
     NUMBER_RANGE = ("GL083", "a number does not fit the brick")
     BINDING_UNBOUNDED = ("GL084", "a binding ranges over a type whose values cannot be listed")
@@ -228,6 +242,11 @@ class Findings:
     def add(self, diagnostic: Diagnostic) -> None:
         self.diagnostics.append(diagnostic)
 
+    def once(self, diagnostic: Diagnostic) -> None:
+        """Add a finding that may have been made on another way."""
+        if diagnostic not in self.diagnostics:
+            self.add(diagnostic)
+
     def error(
         self,
         code: Code,
@@ -268,14 +287,24 @@ class GolcError(Exception):
     exit_code = 70
 
 
+def _rendered(diagnostics: tuple[Diagnostic, ...]) -> str:
+    """The text of an error, made when a traceback or somebody else wants it: what the command line would write."""
+    from golc.rendering import render
+
+    return "\n\n".join(map(render, diagnostics))
+
+
 class UserError(GolcError):
     """The input is wrong: carries what is to be said about it."""
 
     exit_code = 1
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
-        super().__init__("; ".join(f"{d.span}: {d.message}" for d in diagnostics))
+        super().__init__(*diagnostics)
         self.diagnostics = diagnostics
+
+    def __str__(self) -> str:
+        return _rendered(self.diagnostics)
 
 
 class ProgramError(GolcError):
@@ -284,8 +313,11 @@ class ProgramError(GolcError):
     exit_code = 5
 
     def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(f"{diagnostic.span}: {diagnostic.message}")
+        super().__init__(diagnostic)
         self.diagnostic = diagnostic
+
+    def __str__(self) -> str:
+        return _rendered((self.diagnostic,))
 
 
 class LimitError(GolcError):

@@ -193,7 +193,7 @@ class Flow:
         if not isinstance(condition, Literal) and self._never(
             place, (*place.known, place.asked(condition)), what, condition.span
         ):
-            message = "this interrupt can never fire: its condition is false in every situation"
+            message = f"this interrupt can never fire: its condition is false {self._obligations.everywhere}"
             self._obligations.warning(Code.NEVER_FIRES, message, condition.span, "never true")
 
     def _constant(self, condition: Term, place: Place, what: str, only: bool | None = None, true: bool = True) -> None:

@@ -74,7 +74,9 @@ def console_options(command: F) -> F:
         return Console(color, -1 if quiet else verbose)
 
     def wrapper(*args: Any, color: str, quiet: bool, verbose: int, **kwargs: Any) -> Any:
-        return command(*args, console=build(color, quiet, verbose), **kwargs)
+        console = build(color, quiet, verbose)
+        with _executing_said(console):
+            return command(*args, console=console, **kwargs)
 
     wrapper.__name__ = command.__name__
     wrapper.__doc__ = command.__doc__
@@ -84,6 +86,30 @@ def console_options(command: F) -> F:
     )(wrapper)
     wrapped = click.option("-v", "--verbose", count=True, help="Say more.")(wrapped)
     return click.option("-q", "--quiet", is_flag=True, help="Say only what went wrong.")(wrapped)  # type: ignore[return-value]
+
+
+@contextlib.contextmanager
+def _executing_said(console: Console) -> Iterator[None]:
+    """Say of each Python file once that it is executed, before it is."""
+    import logging
+
+    said: set[str] = set()
+
+    def heard(record: logging.LogRecord) -> bool:
+        if (text := record.getMessage()) not in said:
+            said.add(text)
+            console.note(text)
+        return False
+
+    logger = logging.getLogger("golc.python")
+    level = logger.level
+    logger.setLevel(logging.INFO)
+    logger.addFilter(heard)
+    try:
+        yield
+    finally:
+        logger.removeFilter(heard)
+        logger.setLevel(level)
 
 
 constants_option = click.option(

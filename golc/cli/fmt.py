@@ -98,6 +98,9 @@ def _laid_out(console: Console, file: str) -> Iterator[_Result]:
     if Path(file).is_fifo() or Path(file).is_char_device():
         console.err(f"error: `{file}` is no file that could be written anew; `-` stands for standard input")
         return
+    if Path(file).suffix == ".py":
+        console.err(f"error: `{file}` is Python: use a formatter of Python; `golc fmt` lays out `.gl` files")
+        return
     try:
         source = read_stream(STDIN, sys.stdin.buffer) if file == "-" else read_source(file)
         text = formatted(source, findings)

@@ -15,7 +15,7 @@ from golc.reporting.words import is_file, whole_message
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
 
-def log(findings: Iterable[Diagnostic], counts: Mapping[str, int]) -> dict[str, Any]:
+def log(findings: Iterable[Diagnostic], counts: Mapping[str, Any]) -> dict[str, Any]:
     """A log with one run: every code as a rule, every finding as a result; ``counts`` are properties of the run."""
     driver = {"name": "golc", "version": version("golc"), "rules": [_rule(code) for code in Code]}
     ranks = {code: rank for rank, code in enumerate(Code)}

@@ -118,7 +118,7 @@ def test_a_script_that_speaks_for_the_brick_is_warned_of(tmp_path: Path) -> None
     events.write_text("at 900 s: request_delivery(4, 3)\nat 900 s: push_go_button\nat 901 s: push_go_button\n")
     code, _, err = golc("run", DOMAIN, "--world", WORLD, "--events", events, "--speed", 50, typed="!stop\n")
     assert code == 0
-    assert re.findall(r"^warning\[(GL\d+)\].*\n +--> .*all\.events:(\d)", err, re.MULTILINE) == [("GL119", "2")]
+    assert re.findall(r"^warning\[(GL\d+)\].*\n +--> .*all\.events:(\d)", err, re.MULTILINE) == [("GL122", "2")]
     code, _, err = golc("run", DOMAIN, "--world", "none", "--events", events, "--speed", 50, typed="!stop\n")
     assert (code, err) == (0, "")
 
