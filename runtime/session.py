@@ -133,7 +133,6 @@ class _Session:
         self.desk = Desk(self.ask, self.interactive, answers, self.plausible)
 
     def run(self, watching: Iterable[Observer]) -> Outcome:
-        settings = self.settings
         schedule = self.schedule or Schedule()
         observers = [*self.observers(), *watching]
         devices = build_devices(self.theory, Surroundings(self.desk, self.speak, self.link()))
