@@ -26,6 +26,8 @@ Making = Callable[[], "tree.Declaration"]
 
 MISSING: Any = object()
 
+WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
+
 
 class Translator(Clauses, Programs):
     """Everything that a translated function may hold."""
@@ -343,6 +345,10 @@ class Theory:
             meant = translated(function)
             text = meant.name if name is None else name
             ident = new_name(text, meant.name_span)
+            if kind in WITHOUT_PARAMETERS and meant.parameters():
+                arg = meant.parameters()[0]
+                help_ = "write `… for n in station` in it; with a default it is a constant of Python"
+                raise meaningless(f"`{arg.arg}` is a parameter, and no {kind} has any", meant.place(arg), help_)
         except Refused as error:
             return self._broken(error, function, kind, name)
 
