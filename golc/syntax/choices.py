@@ -1,4 +1,4 @@
-"""Hints for values that are unknown, for the beginning, and for prunes."""
+"""Hints for values that are unknown, and for prunes."""
 
 from __future__ import annotations
 
@@ -18,14 +18,6 @@ def bare_choices(failure: Failure) -> Diagnostic | None:
     return failure.finding(Code.SYNTAX, message, help=help)
 
 
-def initially_colon(failure: Failure) -> Diagnostic | None:
-    """``initially: φ``."""
-    if failure.kind != "COLON" or failure.line != ["initially"]:
-        return None
-    message = "behind `initially` stands a formula, without a colon"
-    return failure.finding(Code.SYNTAX, message, help="remove the colon")
-
-
 def nameless_prune(failure: Failure) -> Diagnostic | None:
     """``prune after a: φ``, where ``after`` is read as a name."""
     if failure.line[:2] != ["prune", "after"] or failure.accepts != {"COLON"}:
@@ -34,4 +26,4 @@ def nameless_prune(failure: Failure) -> Diagnostic | None:
     return failure.finding(Code.MISSING, "this prune has no name", span, "write `prune name: after …`")
 
 
-HINTS: tuple[Hint, ...] = (bare_choices, initially_colon, nameless_prune)
+HINTS: tuple[Hint, ...] = (bare_choices, nameless_prune)

@@ -9,13 +9,15 @@ from __future__ import annotations
 from lark import UnexpectedInput
 
 from golc.diagnostics import Code, Diagnostic, Span
-from golc.syntax import blocks, choices, foreign, gaps, keywords, quantifiers, signs
+from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, quantifiers, signs, steps
 from golc.syntax.failure import Failure, Hint, failure
 from golc.syntax.layout import LayoutError
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
     quantifiers.missing_dot,
+    *clauses.HINTS,
+    *steps.HINTS,
     *foreign.NOTATION,
     *blocks.BRACKETS,
     foreign.braces,

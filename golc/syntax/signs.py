@@ -27,7 +27,7 @@ def wrong_sign(failure: Failure) -> Diagnostic | None:
         )
     if failure.kind in ("EQ", "ASSIGN") and failure.accepts == {"COLON"}:
         return failure.finding(
-            Code.FOREIGN, f"after the name of a `{first}` stands `:`, not `{failure.bad}`", help="write `:`"
+            Code.FOREIGN, f"behind the name of `{first}` stands `:`, not `{failure.bad}`", help="write `:`"
         )
     named = len(failure.line) == 2 and first in ("const", "type", "let", "define")
     if failure.kind == "COLON" and failure.accepts & {"EQ", "ASSIGN"} and named:
