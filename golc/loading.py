@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from golc.checks import check
 from golc.checks.bricks import review_bricks
+from golc.checks.hosts import review_hosts
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
-from golc.imports import Joined, join
+from golc.imports import Joined, Reading, join
 from golc.proofs.reachable import Scope
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
-from golc.syntax.text import read_source
+from golc.syntax.text import read_domain
 from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
@@ -27,24 +28,30 @@ Domain: TypeAlias = "str | Path | Theory"
 """Where a theory comes from: the path of a file, which is Python if it ends in ``.py``, or an object of Python."""
 
 
-def load(domain: Domain, constants: Mapping[str, str] | None = None) -> BasicActionTheory:
+def load(domain: Domain, constants: Mapping[str, str] | None = None, trust: bool = True) -> BasicActionTheory:
     """The theory of a domain; ``constants`` replace consts of the file, name to text (``-D``).
 
-    Raises ``UserError`` with every error if there is one; warnings are not mentioned.
+    Python code that the domain names (``extern``) is executed when a function of it is needed, which may be now, for a
+    constant; without ``trust`` never, and what needs it fails. Raises ``UserError`` with every error if there is one;
+    warnings are not mentioned.
     """
-    return theory_of(examine(domain, constants))
+    return theory_of(examine(domain, constants, trust=trust))
 
 
 def theory_of(examined: Examined) -> BasicActionTheory:
-    """The theory of what was examined; raises ``UserError`` with every error if there is one."""
+    """The theory of what was examined; raises ``UserError`` with every error if there is one, or with what keeps its
+    constants from being worked out."""
     if examined.theory is None:
-        raise UserError(*[finding for finding in examined.findings if finding.severity is Severity.ERROR])
+        errors = [finding for finding in examined.findings if finding.severity is Severity.ERROR]
+        raise UserError(*(errors or examined.findings))
     return examined.theory
 
 
 @dataclass(frozen=True)
 class Examined:
     """A domain file: its theory, or none if it has errors, and all findings in the order of their places.
+
+    There is none, either, if a constant would take Python code that is not executed.
 
     ``sources``: the texts of it and of what it imports, its own first; none if it cannot be read. ``file``: the tree,
     joined with those of what it imports; none if there is none. ``constants``: what replaces consts of the file.
@@ -63,45 +70,51 @@ class Examined:
 
 
 def examine(
-    domain: Domain, constants: Mapping[str, str] | None = None, proofs: bool = False, reachable: bool = False
+    domain: Domain,
+    constants: Mapping[str, str] | None = None,
+    proofs: bool = False,
+    reachable: bool = False,
+    trust: bool = False,
+    read: Reading = read_domain,
 ) -> Examined:
     """What is to be said of a domain, including what it imports.
 
     ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, or all that are
-    ``reachable``, and what the NQC files of the bricks say.
+    ``reachable``, and what the files of the devices say. Python code that the domain names (``extern``) is executed
+    only with ``trust``. ``read`` gives the texts of files that are not Python.
     """
     findings = Findings()
     try:
-        joined = _read(domain, findings)
+        joined = _read(domain, findings, read)
     except UserError as error:
         sources = _sources_of(error.diagnostics)
         return Examined(None, tuple(sorted(error.diagnostics, key=by_place(sources))), sources=sources)
-    examined = examine_file(joined.file, joined.sources, findings, constants)
+    examined = examine_file(joined.file, joined.sources, findings, constants, trust)
     if not proofs or examined.theory is None:
         return examined
     return with_behaviours(with_proofs(examined, reachable), examined.theory)
 
 
-def _read(domain: Domain, findings: Findings) -> Joined:
+def _read(domain: Domain, findings: Findings, read: Reading) -> Joined:
     """The tree of a domain, joined with what it imports; raises ``UserError`` if there is none."""
     if not isinstance(domain, (str, Path)):
-        return _join_written(domain.written(), findings)
+        return _join_written(domain.written(), findings, read)
     if Path(domain).suffix == ".py":
         from golc.embed.modules import read_theory
 
-        return _join_written(read_theory(domain), findings)
-    source = read_source(domain)
+        return _join_written(read_theory(domain), findings, read)
+    source = read(domain)
     file = parse_file(source, findings)
     if file is None:
         raise UserError(*findings.diagnostics)
-    return join(file, source, findings)
+    return join(file, source, findings, read)
 
 
-def _join_written(written: Written, findings: Findings) -> Joined:
+def _join_written(written: Written, findings: Findings, read: Reading) -> Joined:
     """The tree of a theory in Python, joined with what it imports."""
     for diagnostic in written.findings.diagnostics:
         findings.add(diagnostic)
-    joined = join(written.file, written.sources[0], findings)
+    joined = join(written.file, written.sources[0], findings, read)
     return Joined(joined.file, (*written.sources, *joined.sources[1:]))
 
 
@@ -111,15 +124,19 @@ def _sources_of(diagnostics: tuple[Diagnostic, ...]) -> tuple[Source, ...]:
 
 
 def examine_file(
-    file: tree.File, sources: tuple[Source, ...], findings: Findings, constants: Mapping[str, str] | None = None
+    file: tree.File,
+    sources: tuple[Source, ...],
+    findings: Findings,
+    constants: Mapping[str, str] | None = None,
+    trust: bool = False,
 ) -> Examined:
     """What is to be said of a tree whose imports have been joined, wherever it comes from.
 
     ``sources``: the texts in which its spans lie, that of the domain itself first; ``findings``: what has been found
-    so far, to which the rest is added; ``constants`` as for ``load``.
+    so far, to which the rest is added; ``constants`` and ``trust`` as for ``examine``.
     """
     source, constants = sources[0], constants or {}
-    theory = elaborate(file, source, findings, constants, sources)
+    theory = elaborate(file, source, findings, constants, sources, trust)
     if theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):
@@ -143,9 +160,10 @@ def with_proofs(examined: Examined, reachable: bool = False) -> Examined:
 
 
 def with_behaviours(examined: Examined, theory: BasicActionTheory) -> Examined:
-    """The same with what the NQC files of the bricks say; ``theory`` is the one examined, which may have errors."""
+    """The same with what the files of the devices say; ``theory`` is the one examined, which may have errors."""
     findings = Findings()
     review_bricks(theory, findings)
+    review_hosts(theory, findings)
     return _with_findings(examined, findings.diagnostics)
 
 

@@ -69,7 +69,7 @@ def _report(action: Action, witness: Witness, obligations: Obligations) -> None:
     assert witness.error is not None
     found = witness.error.diagnostic
     message = f"`{action.name}` can go wrong: {found.message}"
-    obligations.error(Code.EFFECT_FAILS, message, found.span, found.marker, action, witness)
+    obligations.error(Code.EFFECT_FAILS, message, found.span, found.marker, action, witness, found.labels)
 
 
 def _check_conflict(action: Action, first: Effect, second: Effect, obligations: Obligations) -> None:

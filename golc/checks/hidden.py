@@ -15,6 +15,7 @@ from golc.checks.beginning import Beginning
 from golc.diagnostics import ProgramError
 from golc.situation.layout import World
 from golc.situation.worlds import Readable, TooManyCasesError, survey
+from golc.theory.errors import NotExecutedError
 from golc.theory.fitting import size
 from golc.theory.reading import fluents_read, reached
 from golc.theory.terms import Choice, Comprehension, Epistemic, Literal, Quantified, Term, Variable, subterms
@@ -128,6 +129,8 @@ class Hidden:
             except _UnreadError as unread:
                 name, _ = self._interpreter.layout.ground_fluents[unread.slot]
                 cases += [{**supposed, unread.slot: value} for value in _values(self.theory.fluents[name].type)]
+            except NotExecutedError:
+                raise UndecidedError from None
             except ProgramError:
                 continue  # what has no value here is another matter
 

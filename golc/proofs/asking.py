@@ -10,9 +10,11 @@ from golc.diagnostics import ProgramError
 from golc.proofs.cases import Box, Case
 from golc.proofs.domains import Domain, any_of, domain
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Witness
+from golc.proofs.symbols import NeedsPythonError
 from golc.situation.branching import Clause, Options
 from golc.situation.compile import Compiler
 from golc.situation.layout import Layout
+from golc.theory.errors import NotExecutedError
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory
@@ -82,6 +84,8 @@ class Asking:
         Of what is not asked, success or an error, nothing is said but that it is not so."""
         try:
             return all(self._step(step, case) for step in question.steps) and not question.fails
+        except NotExecutedError as error:
+            raise NeedsPythonError(error.why) from None
         except ProgramError as error:
             return error if question.fails else False
 
@@ -89,6 +93,8 @@ class Asking:
         """Whether the invariants hold in a case; one that has no value there does not."""
         try:
             return all(self._value(invariant, case, case) for invariant in self._assumed)
+        except NotExecutedError as error:
+            raise NeedsPythonError(error.why) from None
         except ProgramError:
             return False
 

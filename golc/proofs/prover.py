@@ -14,7 +14,7 @@ from golc.proofs.cases import Case, explore, sample
 from golc.proofs.domains import Domain
 from golc.proofs.questions import Question, Undecided, Witness
 from golc.proofs.smallest import rank, reduced, smallest
-from golc.proofs.symbols import NotDecidedError
+from golc.proofs.symbols import NeedsPythonError, NotDecidedError
 from golc.proofs.weaken import Weakening
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value
@@ -71,6 +71,8 @@ class Prover:
                 if number == MOST_CASES:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
+        except NeedsPythonError as error:
+            return Undecided(str(error), error.help)
         except NotDecidedError as error:
             undecided = Undecided(str(error))
         if not all(case.whole for case, _ in found):

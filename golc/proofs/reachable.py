@@ -20,6 +20,7 @@ from golc.proofs.effort import Effort
 from golc.proofs.symbols import NotDecidedError, Range, Symbol
 from golc.situation.dynamics import Args, Dynamics
 from golc.situation.worlds import State, TooManyCasesError, Worlds
+from golc.theory.errors import NotExecutedError
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Term, Variable, subterms
 from golc.theory.theory import Action, BasicActionTheory
@@ -170,6 +171,8 @@ class _Search:
                 return []
             after = dynamics.progress(before, name, args)
             outcomes = dynamics.outcomes(after, name, args) if action.senses else []
+        except NotExecutedError:
+            raise
         except ProgramError:
             return []
         if not outcomes:
@@ -203,6 +206,8 @@ def _domains(action: Action) -> list[Domain]:
 def _is_true(condition: Condition, state: State) -> bool:
     try:
         return bool(condition(state, ()))
+    except NotExecutedError:
+        raise
     except ProgramError:
         return False
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, Span
 from golc.syntax.failure import LAYOUT, Failure, Hint
+from golc.syntax.fixes import instead, removal
 from golc.syntax.signs import OPERATORS
 
 WITHOUT_COLON = {
@@ -42,7 +43,7 @@ def colon_behind_word(failure: Failure) -> Diagnostic | None:
     match _words(failure), failure.kind:
         case [word], "COLON" if word in WITHOUT_COLON and "COLON" not in failure.accepts:
             message = f"behind `{word}` stands {WITHOUT_COLON[word]}, without a colon"
-            return failure.finding(Code.SYNTAX, message, help="remove the colon")
+            return failure.finding(Code.SYNTAX, message, help="remove the colon", fix=removal(failure.here()))
     return None
 
 
@@ -52,19 +53,20 @@ def other_word(failure: Failure) -> Diagnostic | None:
         case [], word if word in CLAUSES and "POSS" in failure.accepts:
             ours = CLAUSES[word]
             what = "a precondition" if ours == "poss" else "an effect"
-            return failure.finding(
-                Code.FOREIGN, f"{what} begins with `{ours}`, not with `{word}`", help=f"write `{ours}`"
-            )
+            return _replaced(failure, f"{what} begins with `{ours}`, not with `{word}`", failure.here(), ours)
         case ["exog", *_], ("by" | "via" | "at" | "of") as word if "FROM" in failure.accepts:
-            return failure.finding(
-                Code.FOREIGN, f"who reports it stands behind `from`, not `{word}`", help="write `from`"
-            )
+            return _replaced(failure, f"who reports it stands behind `from`, not `{word}`", failure.here(), "from")
         case ["on", *_], "and" if {"COMMA", "WHEN"} <= failure.accepts and "AND" not in failure.accepts:
             return failure.finding(Code.FOREIGN, "commas separate what happens at once", help="write `,`")
         case [*_, "on" | "any" | "some" | "none"], "of":
             last = failure.line[-1]
-            return failure.finding(Code.SYNTAX, f"`{last}` is no word here", failure.span(last), "did you mean `one`?")
+            message, help = f"`{last}` is no word here", "did you mean `one`?"
+            return failure.finding(Code.SYNTAX, message, failure.span(last), help)
     return None
+
+
+def _replaced(failure: Failure, message: str, span: Span, ours: str) -> Diagnostic:
+    return failure.finding(Code.FOREIGN, message, span, f"write `{ours}`", fix=instead(span, ours))
 
 
 def no_parameters(failure: Failure) -> Diagnostic | None:
@@ -96,7 +98,7 @@ def effect(failure: Failure) -> Diagnostic | None:
     if "IF" in signs and "ELSE" in failure.accepts and failure.kind in LAYOUT:
         word = failure.line[signs.index("IF")]
         message = "the condition of an effect begins with `when`, not with `if`"
-        return failure.finding(Code.FOREIGN, message, failure.span(word), "write `when`")
+        return _replaced(failure, message, failure.span(word), "when")
     joined = failure.kind == "COMMA" or (failure.kind == "ASSIGN" and signs[-1] != "ASSIGN")
     if joined and "ASSIGN" in signs and not failure.brackets:
         place = next((token for token in reversed(failure.line) if token.type == "AND"), failure.bad)

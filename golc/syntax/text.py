@@ -1,4 +1,4 @@
-"""Reading a file as the text of a source."""
+"""Reading a file as the text of a source, and the error that a file cannot be written."""
 
 from __future__ import annotations
 
@@ -27,6 +27,12 @@ def read_source(path: str | Path, empty: str = DOMAIN_LINE) -> Source:
             return read_stream(name, file, empty)
     except (OSError, ValueError) as error:
         raise _unreadable(name, _reason(error)) from None
+
+
+def read_domain(path: str | Path) -> Source:
+    """The text of a domain file, which fixes may change; raises ``UserError`` as ``read_source`` does."""
+    source = read_source(path)
+    return Source(source.name, source.text, editable=True)
 
 
 def read_stream(name: str, stream: BinaryIO, empty: str = DOMAIN_LINE) -> Source:
@@ -81,3 +87,9 @@ def _undecodable(name: str, data: bytes, error: UnicodeDecodeError) -> UserError
 def _unreadable(name: str, reason: str, help: str | None = None, span: Span | None = None) -> UserError:
     place = span or Span(Source(name, ""), 0, 0)
     return UserError(Diagnostic(Code.UNREADABLE, f"cannot read `{name}`: {reason}", place, help=help))
+
+
+def unwritable(path: Path, error: OSError) -> UserError:
+    """The error that a file that was named cannot be opened for writing."""
+    place = Span(Source(str(path), ""), 0, 0)
+    return UserError(Diagnostic(Code.UNREADABLE, f"cannot write `{path}`: {error.strerror or error}", place))

@@ -18,6 +18,7 @@ from golc.syntax import tree
 from golc.theory.blame import Blame, Matter, Suspect, also, inside
 from golc.theory.closed import Closed
 from golc.theory.declare import Declared
+from golc.theory.python_file import PythonFiles
 from golc.theory.scope import Entry, Kind, Names, Suggestion
 from golc.theory.terms import Literal
 from golc.theory.theory import Constant, Definition, Parameter, Static
@@ -64,7 +65,8 @@ class Constants(Protocol):
 
 @dataclass
 class Context:
-    """The state of an elaboration. ``resolvers`` and ``constants`` come from the rooms that know how."""
+    """The state of an elaboration. ``resolvers`` and ``constants`` come from the rooms that know how;
+    ``python`` has the files that it may call."""
 
     source: Source
     declared: Declared
@@ -72,9 +74,12 @@ class Context:
     overrides: Mapping[str, str]
     resolvers: Mapping[str, Resolver]
     constants: Constants
+    python: PythonFiles
     device_names: tuple[str, ...] = ()
     inline_types: dict[int, Type] = field(default_factory=dict)
     """The enumerations that stand in place of a type's name and declare their symbols, by the identity of the node."""
+    gaps: bool = False
+    """Whether a value is missing that nothing is wrong with: it would take Python code that is not executed."""
     situational: dict[str, bool] = field(default_factory=dict)
     """Whether a definition depends on the situation, as far as somebody has asked."""
     _resolved: dict[tuple[str, Entry], Resolved] = field(default_factory=dict)
@@ -232,7 +237,7 @@ class Context:
     def _wrong(self, codes: tuple[Code, ...]) -> list[Entry]:
         """The declarations of values that have a finding of their own with one of some codes."""
         found = [finding for finding in self.findings.diagnostics if finding.code in codes]
-        kinds = (Kind.FLUENT, Kind.STATIC, Kind.DEFINITION)
+        kinds = (Kind.FLUENT, Kind.STATIC, Kind.EXTERN, Kind.DEFINITION)
         return [
             entry
             for entry in (self.names.values.of(*kinds) if found else ())
@@ -243,7 +248,7 @@ class Context:
 def _untyped(node: tree.Node) -> tuple[Matter, ...]:
     """What a declaration with a finding has probably left out: its type, or the ``?`` behind it."""
     match node:
-        case tree.Fluent(type=None) | tree.Static(type=None):
+        case tree.Fluent(type=None) | tree.Static(type=None) | tree.Extern(type=None):
             return Matter.TYPE, Matter.NONE
         case tree.Fluent(initial=tree.Nothing()):
             return (Matter.NONE,)

@@ -26,6 +26,7 @@ from golc.theory.elaborate_devices import device_name, devices
 from golc.theory.elaborate_knowledge import check_initially, initially
 from golc.theory.elaborate_prunes import prunes
 from golc.theory.elaborate_scenarios import scenarios
+from golc.theory.python_file import PythonFiles
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
@@ -45,7 +46,7 @@ from golc.theory.types import Type
 T = TypeVar("T")
 
 _NAMELESS = re.compile(
-    r"(?:import|(?:const|type|static|fluent|define|action|exog|proc|goal)[ \t]*(?:[^A-Za-z \t]|from\b))"
+    r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal)[ \t]*(?:[^A-Za-z \t]|from\b))"
 )
 """The beginning of an import, or of a declaration whose name is missing."""
 
@@ -56,11 +57,13 @@ def elaborate(
     findings: Findings,
     constants: Mapping[str, str] | None = None,
     sources: Sequence[Source] = (),
+    trust: bool = False,
 ) -> BasicActionTheory | None:
     """The theory that a file describes, or None if it has errors; every finding is added to ``findings``.
 
     ``constants`` are values of consts as texts, which replace those in the file (``-D``). ``sources`` are all sources
-    of a file with imports, which have been joined. If there are errors among
+    of a file with imports, which have been joined. ``trust``: Python code may be executed; without it there is no
+    theory, only notes, if a value in its declarations takes that. If there are errors among
     ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
     """
     unread = [text for each in sources or (source,) for text in _unread(file, each)] if findings.has_errors else []
@@ -72,7 +75,7 @@ def elaborate(
     theory = None
     try:
         with deep_recursion():
-            theory = _elaborate(file, source, found, constants or {}, assumed, nameless)
+            theory = _elaborate(file, source, found, constants or {}, assumed, nameless, PythonFiles(trust))
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
@@ -108,10 +111,11 @@ def _elaborate(
     constants: Mapping[str, str],
     assumed: frozenset[str],
     nameless: bool,
-) -> BasicActionTheory:
+    python: PythonFiles,
+) -> BasicActionTheory | None:
     declared = declare(file, findings, assumed)
     declared.names.nameless = nameless
-    context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value)
+    context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value, python)
     blocks = [node for node in file.declarations if isinstance(node, tree.Device)]
     context.device_names = tuple([device_name(node) for node in blocks])
     values.check_overrides(context)
@@ -137,11 +141,12 @@ def _elaborate(
         scenarios(context, [node for node in file.declarations if isinstance(node, tree.Scenario)]),
         initially(context, [node for node in file.declarations if isinstance(node, tree.Initially)]),
         prunes(context, [node for node in file.declarations if isinstance(node, tree.Prune | tree.PruneAfter)]),
+        context.python,
     )
     _check_circles(context, theory)
     check_initially(context, theory)
     context.finish()
-    return theory
+    return None if context.gaps else theory
 
 
 class _Builder:
@@ -169,7 +174,7 @@ class _Builder:
                 _keep(self.constants, entry, context.constant(entry))
             case Kind.TYPE:
                 _keep(self.types, entry, context.type(entry))
-            case Kind.STATIC:
+            case Kind.STATIC | Kind.EXTERN:
                 _keep(self.statics, entry, context.static(entry))
             case Kind.FLUENT:
                 _keep(self.fluents, entry, actions.fluent(context, entry))
@@ -230,7 +235,7 @@ def _signature(context: Context, entry: Entry) -> Signature | None:
     match entry.kind:
         case Kind.FLUENT:
             return actions.fluent_signature(context, entry)
-        case Kind.STATIC:
+        case Kind.STATIC | Kind.EXTERN:
             return values.static_signature(context, entry)
         case Kind.DEFINITION | Kind.GOAL | Kind.INVARIANT:
             return actions.definition_signature(context, entry)

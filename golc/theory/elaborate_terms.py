@@ -153,7 +153,7 @@ def _called(signature: Signature, args: tuple[Term, ...], span: Span) -> Term:
     match signature.entry.kind:
         case Kind.FLUENT:
             return FluentTerm(name, args, type=signature.type, span=span)
-        case Kind.STATIC:
+        case Kind.STATIC | Kind.EXTERN:
             return StaticTerm(name, args, type=signature.type, span=span)
         case _:
             return DefinedTerm(name, args, type=signature.type, span=span)

@@ -12,6 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Generic, TypeAlias, TypeVar, cast
 
 from golc.theory import errors
+from golc.theory.border import PythonFunction, extern_value
 from golc.theory.operations import apply, takes_none
 from golc.theory.order import arranged, elements
 from golc.theory.terms import (
@@ -183,6 +184,8 @@ class Evaluator(Generic[S]):
         args = self.arguments(term.static, static.parameters, term.args, situation, env)
         if isinstance(static.body, Mapping):
             return static.body[args]
+        if isinstance(static.body, PythonFunction):
+            return extern_value(static, args, term.span)
         if self.depth >= DEPTH:
             raise errors.endless(static.span, static.name)
         self.depth += 1

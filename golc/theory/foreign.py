@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from decimal import Decimal
 from fractions import Fraction
+from numbers import Integral
 
 from golc.theory.fitting import collection
 from golc.theory.types import Type, Value, number
@@ -16,12 +17,17 @@ FOREIGN: Value = object()
 def golc_value(value: object, type_: Type) -> Value:
     """The value that a Python object stands for where a type is needed.
 
-    A real number may be a ``float``, which means the decimals that Python writes; lists and sets may be mutable.
+    A symbol is a string with its name. A real number may be a ``float``, which means the decimals that Python writes;
+    lists and sets may be mutable.
     """
     whole = collection(type_)
     match value:
-        case None | bool() | int() | str():
+        case None | bool():
             return value
+        case Integral():
+            return int(value)
+        case str():
+            return str.__str__(value)
         case Fraction() if "real" in type_.kinds:
             return number(value)
         case float() | Decimal() if "real" in type_.kinds and math.isfinite(value):

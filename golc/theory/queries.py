@@ -13,6 +13,7 @@ from golc.theory.context import Context
 from golc.theory.declare import declare
 from golc.theory.elaborate import RESOLVERS
 from golc.theory.elaborate_terms import formula, term
+from golc.theory.python_file import PythonFiles
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Scope
 from golc.theory.terms import Term
@@ -20,14 +21,16 @@ from golc.theory.terms import Term
 
 @dataclass(frozen=True)
 class Queries:
-    """Elaborates texts against a file without errors, whose imports have been joined; ``constants`` as for ``load``.
+    """Elaborates texts against a file without errors, whose imports have been joined.
 
+    ``constants`` are as for ``load``; ``python`` are the files that the theory may call.
     Every method raises ``UserError`` for a text that has no meaning; ``name`` is what its findings call the text.
     """
 
     file: tree.File
     source: Source
     constants: Mapping[str, str]
+    python: PythonFiles
 
     def term(self, text: str, name: str = "<term>") -> Term:
         """The typed term of an expression without free variables."""
@@ -43,9 +46,12 @@ class Queries:
         if node is not None:
             with deep_recursion():
                 declared = declare(self.file, Findings(), frozenset())
-                context = Context(self.source, declared, findings, self.constants, RESOLVERS, values.constant_value)
+                context = Context(
+                    self.source, declared, findings, self.constants, RESOLVERS, values.constant_value, self.python
+                )
                 found = meaning(context, node)
                 context.finish()
-        if found is None or findings.has_errors:
-            raise UserError(*[each for each in findings.diagnostics if each.severity is Severity.ERROR])
+        if found is None or findings.has_errors or context.gaps:
+            wrong = [each for each in findings.diagnostics if each.severity is Severity.ERROR]
+            raise UserError(*(wrong or findings.diagnostics))
         return found

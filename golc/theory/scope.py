@@ -21,6 +21,7 @@ class Kind(Enum):
     SYMBOL = "value"
     FLUENT = "fluent"
     STATIC = "static"
+    EXTERN = "extern"
     DEFINITION = "definition"
     GOAL = "goal"
     INVARIANT = "invariant"
@@ -77,9 +78,9 @@ class Suggestion:
 class Names:
     """Everything that a file declares.
 
-    ``values`` holds consts, types, symbols, fluents, statics, definitions, goals and invariants; ``doings`` actions and
-    procedures. ``assumed`` are names about which nothing can be said, because what may declare them could not be read:
-    they are not reported as unknown. ``open`` says that any name may come from elsewhere (an import),
+    ``values`` holds consts, types, symbols, fluents, statics, externs, definitions, goals and invariants; ``doings``
+    actions and procedures. ``assumed`` are names about which nothing can be said, because what may declare them could
+    not be read: they are not reported as unknown. ``open`` says that any name may come from elsewhere (an import),
     ``nameless`` that a declaration without a name, or an import without a file, may be what brings one.
     """
 

@@ -277,6 +277,22 @@ def test_a_file_that_python_cannot_run_is_one_finding(
     assert message in found.message
 
 
+def test_nesting_is_as_deep_as_in_a_text(wrong_with: Wrong) -> None:
+    (found,) = wrong_with(
+        """
+        from golc.embed import Theory
+
+        theory = Theory("d")
+        total = theory.fluent("level", int, 0)
+        for k in range(501):
+            total = total + 1
+        theory.goal("g", total == 1)
+        """
+    )
+
+    assert (found.code.code, found.span.line) == ("GL008", 8)
+
+
 def test_a_failure_in_a_called_function_shows_both_places(wrong_with: Wrong) -> None:
     (found,) = wrong_with(
         """
