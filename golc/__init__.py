@@ -60,29 +60,12 @@ __all__ = [
 ]
 
 _ROOMS = {
-    "golc.api.loading": (
-        "check",
-        "load",
-    ),
+    "golc.api.loading": ("check", "load"),
     "golc.api.report": ("Report",),
     "golc.api.state": ("Key", "State"),
-    "golc.api.theory": (
-        "NoPlanError",
-        "Theory",
-    ),
-    "golc.diagnostics": (
-        "DeviceError",
-        "Diagnostic",
-        "GolcError",
-        "LimitError",
-        "ProgramError",
-        "UserError",
-    ),
-    "golc.planning.plans": (
-        "Case",
-        "Outcome",
-        "Plan",
-    ),
+    "golc.api.theory": ("NoPlanError", "Theory"),
+    "golc.diagnostics": ("DeviceError", "Diagnostic", "GolcError", "LimitError", "ProgramError", "UserError"),
+    "golc.planning.plans": ("Case", "Outcome", "Plan"),
     "golc.program.blame": ("Blocked",),
     "golc.rendering": ("render",),
     "golc.runtime.loop.happenings": ("End",),

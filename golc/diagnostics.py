@@ -286,14 +286,24 @@ class GolcError(Exception):
     exit_code = 70
 
 
+def _rendered(diagnostics: tuple[Diagnostic, ...]) -> str:
+    """The text of an error, made when a traceback or somebody else wants it: what the command line would write."""
+    from golc.rendering import render
+
+    return "\n\n".join(map(render, diagnostics))
+
+
 class UserError(GolcError):
     """The input is wrong: carries what is to be said about it."""
 
     exit_code = 1
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
-        super().__init__("; ".join(f"{d.span}: {d.message}" for d in diagnostics))
+        super().__init__(*diagnostics)
         self.diagnostics = diagnostics
+
+    def __str__(self) -> str:
+        return _rendered(self.diagnostics)
 
 
 class ProgramError(GolcError):
@@ -302,8 +312,11 @@ class ProgramError(GolcError):
     exit_code = 5
 
     def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(f"{diagnostic.span}: {diagnostic.message}")
+        super().__init__(diagnostic)
         self.diagnostic = diagnostic
+
+    def __str__(self) -> str:
+        return _rendered((self.diagnostic,))
 
 
 class LimitError(GolcError):

@@ -7,12 +7,11 @@ from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
 from golc.diagnostics import Code, Diagnostic, Label, ProgramError, Source, Span, UserError, counted
-from golc.planning.ground_actions import MOST_INSTANCES
 from golc.program.blame import Blocked, obstacles, valued
 from golc.program.labels import Act, Expect
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
-from golc.theory.fitting import describe, size
+from golc.theory.fitting import MOST_INSTANCES, combinations, describe
 from golc.theory.foreign import golc_value
 from golc.theory.ground import Call, read_action
 from golc.theory.theory import Action
@@ -53,12 +52,8 @@ def listed(dynamics: Dynamics, state: State, exogenous: bool) -> Iterator[Call]:
 
 
 def _is_listable(action: Action) -> bool:
-    if not all(parameter.type.finite for parameter in action.parameters):
-        return False
-    instances = 1
-    for parameter in action.parameters:
-        instances *= size(parameter.type)
-    return instances <= MOST_INSTANCES
+    count = combinations([parameter.type for parameter in action.parameters])
+    return count is not None and count <= MOST_INSTANCES
 
 
 def _can_be(dynamics: Dynamics, state: State, action: Action, args: tuple[Value, ...]) -> bool:

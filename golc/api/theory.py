@@ -13,7 +13,6 @@ from golc.api.contents import as_text, tables
 from golc.api.state import State
 from golc.diagnostics import GolcError, LimitError, counted
 from golc.loading import Examined, theory_of
-from golc.planning.plans import Outcome, Plan
 from golc.program.blame import Blocked
 from golc.situation import worlds
 from golc.situation.dynamics import Dynamics
@@ -29,6 +28,7 @@ if TYPE_CHECKING:
     from golc.nqc.build import BrickProgram
     from golc.planning.goals import GoalPlanning
     from golc.planning.planner import Planning
+    from golc.planning.plans import Outcome, Plan
     from golc.scenarios.play import Played
 
 ASKED = 1000

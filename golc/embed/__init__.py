@@ -9,7 +9,7 @@ top
 """
 
 from golc.embed.theory import Theory
-from golc.embed.types import enum, interval, optional, symbols, union
+from golc.embed.types import enum, interval, names, optional, symbols, types, union
 from golc.embed.words import (
     abort,
     after,
@@ -84,6 +84,7 @@ __all__ = [
     "known",
     "knows",
     "let",
+    "names",
     "on",
     "one_of",
     "optional",
@@ -103,6 +104,7 @@ __all__ = [
     "test",
     "together",
     "together_star",
+    "types",
     "union",
     "unknown",
     "until",

@@ -11,8 +11,8 @@ from golc.embed import words
 from golc.embed.bodies import Bodies
 from golc.embed.errors import meaningless, refused
 from golc.embed.evaluate import NOT_PYTHON
-from golc.embed.names import golc_name, new_name
-from golc.embed.terms import Named, expr
+from golc.embed.names import golc_name, new_name, python_name
+from golc.embed.terms import Named, Term, expr
 from golc.syntax import tree
 
 _CHANGE = "write `causes(fluent, value)`"
@@ -64,9 +64,11 @@ class Clauses(Bodies):
     def _for_all(self, node: ast.For) -> Iterator[tree.Clause]:
         """``for x in t: causes(…)``: an effect for every value; a loop of Python is written out."""
         word = self.call_of(node.iter, words.each)
-        if word is None and not self.is_type(node.iter) and self.python(node.iter) is not NOT_PYTHON:
-            yield from self.unrolled(node, self._clause)
-            return
+        if word is None and not self.is_type(node.iter):
+            value = self.python(node.iter)
+            if value is not NOT_PYTHON and not isinstance(value, Term):
+                yield from self.unrolled(node, self._clause)
+                return
         self.no_else(node)
         where = None
         if word is None:
@@ -240,7 +242,7 @@ class Clauses(Bodies):
     def _set(self, call: ast.Call) -> tree.Setting:
         seconds = self.keyword(call, "seconds")
         name, *values = self.arguments(call, 1 if seconds is not None else 2, ("seconds",))
-        ident = new_name(self._text(name), self.span(name))
+        ident = new_name(self._text(name), self.span(name), used=True)
         value = seconds if seconds is not None else values[0]
         return tree.Setting(ident, self.expr(value), seconds is not None, span=self.span(call))
 
@@ -264,7 +266,9 @@ class Clauses(Bodies):
         given = {word.arg: word.value for word in call.keywords}
         timeout = None if "timeout" not in given else self.expr(given["timeout"])
         table = None if "table" not in given else self.table(given["table"])
-        behaviour = self._behaviour(call, given)
+        variables = [arg.name.text for arg in args or () if isinstance(arg, tree.Parameter)]
+        with self.scope([python_name(name) for name in (*action.parameters, *variables)]):
+            behaviour = self._behaviour(call, given)
         return tree.Binding(ident, args, *self._number(call, given), behaviour, table, timeout, span=self.span(call))
 
     def _number(self, call: ast.Call, given: dict[str | None, ast.expr]) -> tuple[int | None, bool]:
@@ -295,7 +299,7 @@ class Clauses(Bodies):
         node = given[ways[0]]
         if ways[0] == "prompt":
             return tree.ByPrompt(self.message(node), span=self.span(node))
-        name = new_name(self._text(node), self.span(node))
+        name = new_name(self._text(node), self.span(node), used=True)
         made: Any = tree.ByCall if ways[0] == "call" else tree.ByStart
         return made(name, span=self.span(node))
 

@@ -12,7 +12,7 @@ from golc.embed.functions import Function
 from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
 from golc.embed.terms import Named, Term, variable
-from golc.embed.types import TypeForm, TypeHandle, enum, interval, optional, symbols, union
+from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, enum, interval, optional, symbols, union
 from golc.embed.words import Value, Word
 from golc.theory.suggest import did_you_mean
 
@@ -34,7 +34,12 @@ def _holds_terms(value: object) -> bool:
         return any(_holds_terms(each) for each in value)
     if isinstance(value, dict):
         return any(_holds_terms(each) for each in (*value.keys(), *value.values()))
-    return isinstance(value, (Term, Word, Value, TypeForm)) or _is_ours(value)
+    return isinstance(value, (Term, Word, Value, TypeForm)) or _is_ours(value) or _is_type(value)
+
+
+def _is_type(value: object) -> bool:
+    """Whether a value is a class that is also a type of the language."""
+    return any(value is each for each in BUILT_IN)
 
 
 class Evaluator:
@@ -61,7 +66,8 @@ class Evaluator:
                 base = self(owner)
                 if isinstance(base, TypeHandle) and isinstance(node, ast.Attribute):
                     return self._symbol(base, node)
-                return NOT_PYTHON if base is NOT_PYTHON or isinstance(base, (Term, Word)) else self._run(node)
+                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or _is_type(base)
+                return NOT_PYTHON if ours else self._run(node)
             case ast.Call(func=function):
                 called = self(function)
                 ours = called is NOT_PYTHON or isinstance(called, (Term, Word, Value))
@@ -85,7 +91,8 @@ class Evaluator:
 
     def _constant(self, node: ast.expr) -> bool:
         """Whether there are names in an expression that mean nothing in the language, and all in it is Python's."""
-        return any(not _is_ours(self.name(each)) for each in free_names(node)) and self._plain(node)
+        values = [self.name(each) for each in free_names(node)]
+        return not all(_is_ours(value) or _is_type(value) for value in values) and self._plain(node)
 
     def _plain(self, node: ast.expr) -> bool:
         match node:

@@ -17,7 +17,18 @@ from golc.embed.functions import Function
 from golc.embed.names import golc_name, new_name
 from golc.embed.refusals import EXPRESSIONS, OPERATORS
 from golc.embed.terms import Named, expr, in_order
-from golc.embed.types import TypeForm, TypeHandle, element, enum, interval, join_nodes, optional, type_node, union
+from golc.embed.types import (
+    BUILT_IN,
+    TypeForm,
+    TypeHandle,
+    element,
+    enum,
+    interval,
+    join_nodes,
+    optional,
+    type_node,
+    union,
+)
 from golc.embed.words import Value, Word
 from golc.syntax import tree
 
@@ -167,6 +178,8 @@ class Expressions:
         span = self.span(node)
         if isinstance(value, TypeHandle):
             return tree.Apply(tree.Ident(value.name, span=span), (), span=span)
+        if isinstance(value, type) and value in BUILT_IN:
+            return tree.Apply(tree.Ident(BUILT_IN[value], span=span), (), span=span)
         if isinstance(value, Value):
             raise refused(Code.MISUSED_NAME, f"`{span.text}` stands only for the whole value of a fluent", span)
         if isinstance(value, Word):
@@ -393,8 +406,17 @@ class Expressions:
                 raise meaningless(
                     f"the parameter `{arg.arg}` has no type", self.span(arg), f"write `{arg.arg}: station`"
                 )
-            found.append(tree.Parameter(name, self.type(arg.annotation), span=self.span(arg)))
+            found.append(tree.Parameter(name, self.annotation(arg.annotation), span=self.span(arg)))
         return tuple(found)
+
+    def annotation(self, node: ast.expr) -> tree.Type:
+        """The type in an annotation, in which parameters are not known."""
+        bound = set(self.bound)
+        self.bound.clear()
+        try:
+            return self.type(node)
+        finally:
+            self.bound.update(bound)
 
 
 def _joined(parts: Sequence[str | tree.Expr]) -> tuple[str | tree.Expr, ...]:

@@ -7,6 +7,7 @@ import builtins
 import inspect
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from types import CodeType, FrameType, FunctionType
 from typing import Any
 
@@ -80,7 +81,8 @@ class Function:
             message = f"`{name.id}` is neither a Python constant nor declared"
             raise refused(Code.UNKNOWN_NAME, message, self.place(name), help_)
         then = self.seen.get(name.id, ABSENT)
-        if then is not ABSENT and then is not value and not _alike(then, value):
+        fresh = then is ABSENT or then is vars(builtins).get(name.id)
+        if not fresh and then is not value and not _alike(then, value):
             raise self._changed(name, then, value)
         return value
 
@@ -151,11 +153,14 @@ def translated(function: object) -> Function:
 
 def _definition(source: Source, code: CodeType) -> ast.FunctionDef | None:
     """The ``def`` of a function, whose code begins in the line of its first decorator."""
+    return _definitions(source).get((code.co_name, code.co_firstlineno))
+
+
+@cache
+def _definitions(source: Source) -> dict[tuple[str, int], ast.FunctionDef]:
+    """The decorated functions of a source by their name and the line of their first decorator."""
     functions = (node for node in ast.walk(tree_of(source)) if isinstance(node, ast.FunctionDef))
-    for node in functions:
-        if node.name == code.co_name and [each.lineno for each in node.decorator_list[:1]] == [code.co_firstlineno]:
-            return node
-    return None
+    return {(node.name, node.decorator_list[0].lineno): node for node in functions if node.decorator_list}
 
 
 def _names(code: CodeType) -> set[str]:

@@ -12,8 +12,8 @@ from golc.syntax.words import RESERVED
 
 _WORDS = """
 Theory abort after before bind branch causes choose cost count each enum exists expect first forall given guard iff
-implies interrupts interval known knows let on one_of optional otherwise pick poss possible prefer rest run say
-search senses setting star symbols test together together_star union unknown until values var wait within
+implies interrupts interval known knows let names on one_of optional otherwise pick poss possible prefer rest run say
+search senses setting star symbols test together together_star types union unknown until values var wait within
 """
 _BUILTINS = "abs all any bool enumerate float int len list max min range set sorted str sum zip"
 
@@ -23,7 +23,7 @@ WORDS = frozenset(_WORDS.split())
 BUILTINS = frozenset(_BUILTINS.split())
 """The builtins that have a meaning in a theory."""
 
-_PYTHONS = WORDS | BUILTINS | frozenset(keyword.kwlist)
+_PYTHONS = WORDS | BUILTINS | frozenset(keyword.kwlist) | {"theory"}
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 
 
@@ -38,13 +38,13 @@ def python_name(name: str) -> str:
     return name + "_" if name.rstrip("_") in _PYTHONS else name
 
 
-def new_name(text: object, span: Span) -> tree.Ident:
-    """A name that comes into being at a place. Raises ``Refused`` if it cannot be one."""
+def new_name(text: object, span: Span, used: bool = False) -> tree.Ident:
+    """A name that comes into being at a place, or is only ``used`` there. Raises ``Refused`` if it cannot be one."""
     if not isinstance(text, str) or not _NAME.fullmatch(text):
         what = f"`{text}`" if isinstance(text, str) else f"a {type(text).__name__}"
         help_ = "begin it with a letter and go on with letters, digits and `_`"
         raise refused(Code.PYTHON_MEANING, f"{what} cannot be a name", span, help_)
-    if text in RESERVED:
+    if text in RESERVED and not used:
         help_ = f"choose another name, for example `{text}_` or `the_{text}`"
         raise refused(Code.RESERVED, f"`{text}` is a word of the language and cannot be a name", span, help_)
     return tree.Ident(text, span=span)

@@ -6,7 +6,6 @@ import ast
 import linecache
 import sys
 from functools import cache
-from itertools import islice
 from types import CodeType, FrameType
 
 from golc.diagnostics import Source, Span
@@ -14,14 +13,20 @@ from golc.diagnostics import Source, Span
 OURS = __name__.rpartition(".")[0] + "."
 
 
-@cache
-def _source(name: str, text: str) -> Source:
-    return Source(name, text)
+_sources: dict[str, tuple[list[str], Source]] = {}
+"""The source of each file, as long as Python keeps the same lines of it: one file has one source."""
+
+_positions: dict[int, tuple[CodeType, list[tuple[int | None, int | None, int | None, int | None]]]] = {}
+"""The places of the instructions of a code, by its identity: its hash would go through all of it."""
 
 
 def source_of(filename: str) -> Source:
     """The text of a file or notebook cell that Python has compiled; empty if it is not kept anywhere."""
-    return _source(filename, "".join(linecache.getlines(filename)))
+    lines = linecache.getlines(filename)
+    known = _sources.get(filename)
+    if known is None or known[0] is not lines:
+        known = _sources[filename] = (lines, Source(filename, "".join(lines)))
+    return known[1]
 
 
 @cache
@@ -67,11 +72,11 @@ def frame_span(frame: FrameType, instruction: int | None = None) -> Span:
 
 def code_span(source: Source, code: CodeType, instruction: int, line: int) -> Span:
     """The place of an instruction (its offset in bytes); its whole line where Python does not know better."""
-    place = next(islice(code.co_positions(), instruction // 2, None), None)
-    if place is None or None in place:
+    if id(code) not in _positions:
+        _positions[id(code)] = (code, list(code.co_positions()))
+    first, last, column, end = _positions[id(code)][1][instruction // 2]
+    if first is None or last is None or column is None or end is None:
         return line_span(source, line)
-    first, last, column, end = place
-    assert first is not None and last is not None and column is not None and end is not None
     return Span(source, offset(source, first, column), offset(source, last, end))
 
 

@@ -143,7 +143,7 @@ class Programs(Bodies):
         value = self.listed(node)
         if isinstance(value, (list, tuple, range)):
             return not any(each is NOT_PYTHON for each in value) and any(_is_no_value(each) for each in value)
-        return value is not NOT_PYTHON
+        return value is not NOT_PYTHON and not isinstance(value, Term)
 
     def _ranges(self, node: ast.For, word: words.Word | None) -> tuple[tuple[tree.Binder, ...], ast.expr | None]:
         if word is None:

@@ -17,7 +17,7 @@ from golc.embed.names import golc_name, new_name
 from golc.embed.places import caller, calling_frame, frame_span
 from golc.embed.programs import Programs
 from golc.embed.terms import Named, expr
-from golc.embed.types import TypeHandle, type_node
+from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
 from golc.theory.recursion import deep_recursion
 
@@ -75,23 +75,42 @@ class Theory:
         self._parts.append(other)
 
     @overload
-    def const(self, name: str, value: object) -> Named: ...
+    def const(self, what: str, /, value: object) -> Named: ...
     @overload
-    def const(self, name: Callable[..., Any]) -> Named: ...
-    def const(self, name: Any, value: object = MISSING) -> Any:
+    def const(self, what: Callable[..., Any], /) -> Named: ...
+    @overload
+    def const(self, /, *, name: str) -> Callable[[Callable[..., Any]], Named]: ...
+    def const(self, what: Any = None, /, value: object = MISSING, *, name: str | None = None) -> Any:
         """``const c = e``; ``-D c=…`` on the command line replaces it. Without a value: a decorator."""
-        if isinstance(name, FunctionType):
-            return self._translate(
-                name, "const", lambda t, ident: tree.Const(ident, t.expr(t.returned()), span=t.function.span)
-            )
-        ident, span = self._named(name)
+        if not isinstance(what, str):
+
+            def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
+                return tree.Const(ident, t.expr(t.returned()), span=t.function.span)
+
+            return self._decorated(what, name, "const", make)
+        ident, span = self._named(what)
         node = tree.Const(ident, expr(self._needed(value, span), span), span=span)
         self._types[ident.text] = node.value
         return self._add(node, "const")
 
-    def type(self, name: str, value: object) -> TypeHandle:
-        """``type t = …``: a name for a type; unpacking it gives the symbols and integers of an enumeration."""
-        ident, span = self._named(name)
+    def type(self, what: Any = None, /, value: object = MISSING, *, name: str | None = None) -> Any:
+        """``type t = …``: a name for a type; unpacking it gives the symbols and integers of an enumeration.
+
+        With a name and a type, or a decorator of a function that returns the type and may speak of what is declared
+        further down.
+        """
+        if not isinstance(what, str):
+
+            def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
+                return tree.TypeDecl(ident, t.type(t.returned()), span=t.function.span)
+
+            def decorated(function: Callable[..., Any]) -> TypeHandle:
+                made = self._translate(function, "type", make, name)
+                return self._types.setdefault(made.name, elsewhere(tree.Ident(made.name)))  # type: ignore[return-value]
+
+            return decorated if what is None else decorated(what)
+        ident, span = self._named(what)
+        self._needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, span), span=span)
         self._parts.append(lambda: node)
         handle = TypeHandle(ident.text, node.type, self._types.get)
@@ -100,10 +119,12 @@ class Theory:
 
     def static(
         self,
-        name: Any,
+        what: Any = None,
+        /,
         type: object = None,
         value: object = MISSING,
         *,
+        name: str | None = None,
         parameters: Mapping[str, object] | None = None,
     ) -> Any:
         """``static f(a: t): u = e``, what never changes. A decorator, or called with a name, a type and a value.
@@ -111,15 +132,15 @@ class Theory:
         ``parameters`` maps names to types; ``value`` is a term, a dictionary (a table), or with parameters a function
         that is called with the variables.
         """
-        if isinstance(name, FunctionType):
+        if not isinstance(what, str):
 
             def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
                 body = t.returned()
                 meant = t.table(body) if t.is_table(body) else t.expr(body)
                 return tree.Static(ident, t.parameters(), self._returns(t), meant, span=t.function.span)
 
-            return self._translate(name, "static", make)
-        ident, span = self._named(name)
+            return self._decorated(what, name, "static", make)
+        ident, span = self._named(what)
         heads = self._heads(parameters or {}, span)
         meant = self._applied(self._needed(value, span), heads, span)
         node = table_of(meant, span) if isinstance(meant, dict) else expr(meant, span)
@@ -136,10 +157,12 @@ class Theory:
 
     def fluent(
         self,
-        name: Any,
+        what: Any = None,
+        /,
         type: object = None,
         initial: object = MISSING,
         *,
+        name: str | None = None,
         parameters: Mapping[str, object] | None = None,
     ) -> Any:
         """``fluent f(a: t): u = e``, what actions change. A decorator, or called with a name, a type and a first value.
@@ -147,14 +170,14 @@ class Theory:
         Without a type it is relational, true or false. The first value may be ``unknown`` or ``one_of(…)``; the rest
         is as for ``static``.
         """
-        if isinstance(name, FunctionType):
+        if not isinstance(what, str):
 
             def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
                 value = t.value(t.returned()) if t.function.body() else None
                 return tree.Fluent(ident, t.parameters(), self._returns(t), value, span=t.function.span)
 
-            return self._translate(name, "fluent", make)
-        ident, span = self._named(name)
+            return self._decorated(what, name, "fluent", make)
+        ident, span = self._named(what)
         heads = self._heads(parameters or {}, span)
         value = None if initial is MISSING else words.value_expr(self._applied(initial, heads, span), span)
         return self._add(tree.Fluent(ident, heads, self._typed(type, span), value, span=span), "fluent", heads)
@@ -186,7 +209,7 @@ class Theory:
         """``exog e(x: t): …``, what happens by itself; ``expected``: look-ahead may count on it; ``sources``: who may
         report it. A decorator."""
         span = caller()
-        reporters = tuple(new_name(source, span) for source in sources)
+        reporters = tuple(new_name(source, span, used=True) for source in sources)
 
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Exog(ident, t.parameters(), bool(expected), reporters, t.clauses(), span=t.function.span)
@@ -197,7 +220,7 @@ class Theory:
         """``axiom f(x): …``: the successor state axiom of a fluent, as a function of ``after``; a decorator."""
         span = caller()
         name = fluent.name if isinstance(fluent, Named) else fluent
-        head = new_name(name, span)
+        head = new_name(name, span, used=True)
 
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Axiom(head, t.heads(), t.cases(), span=t.function.span)
@@ -254,8 +277,8 @@ class Theory:
         """``device rcx left "left.nqc": …``: who carries the actions out; a decorator of a function of ``bind`` and
         ``setting``."""
         span = caller()
-        what = new_name(kind, span)
-        called = None if name is None else new_name(name, span)
+        what = new_name(kind, span, used=True)
+        called = None if name is None else new_name(name, span, used=True)
 
         def make(t: Translator, _: tree.Ident) -> tree.Declaration:
             return tree.Device(what, called, file, t.settings(), span=t.function.span)
@@ -384,4 +407,4 @@ class Theory:
 
     def _returns(self, translator: Translator) -> tree.Type | None:
         annotation = translator.function.node.returns
-        return None if annotation is None else translator.type(annotation)
+        return None if annotation is None else translator.annotation(annotation)

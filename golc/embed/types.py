@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import types
 import typing
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
+from types import UnionType
+from typing import Any
 
 from golc.diagnostics import Code, Span
 from golc.embed.errors import meaningless, refused
@@ -120,7 +121,7 @@ def element(value: object, span: Span) -> tree.Ident | tree.Number:
     match value:
         case str():
             return new_name(value, span)
-        case Named(kind="symbol" | "name"):
+        case TypeHandle() | Named() if not (isinstance(value, Named) and value.kind == "variable"):
             return tree.Ident(value.name, span=span)
         case int() if not isinstance(value, bool):
             return tree.Number(value, span=span)
@@ -137,10 +138,32 @@ def optional(base: object) -> TypeForm:
     return joined((base, None), caller())
 
 
-def symbols(*names: str) -> tuple[Named, ...]:
-    """The symbols of enumerations that have no name: ``red, green = symbols("red", "green")``."""
+def symbols(*names: str) -> Any:
+    """The symbols of enumerations that have no name: ``red, green = symbols("red", "green")``; of one name itself."""
     span = caller()
-    return tuple(Named(new_name(name, span).text, "symbol") for name in names)
+    return _one_or_all(Named(new_name(name, span).text, "symbol") for name in names)
+
+
+def names(*names: str) -> Any:
+    """What an imported file declares, types apart: ``bed, water = names("bed", "water")``; of one name itself."""
+    span = caller()
+    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name in names)
+
+
+def types(*names: str) -> Any:
+    """The types that an imported file declares: ``row, soil = types("row", "soil")``; of one name itself."""
+    span = caller()
+    return _one_or_all(elsewhere(new_name(name, span, used=True)) for name in names)
+
+
+def elsewhere(name: tree.Ident) -> TypeHandle:
+    """A type of which no more than its name is known."""
+    return TypeHandle(name.text, tree.TypeName(name), lambda _: None)
+
+
+def _one_or_all(things: Iterable[object]) -> object:
+    one, *others = found = tuple(things)
+    return found if others else one
 
 
 def joined(parts: tuple[object, ...], span: Span) -> TypeForm:
@@ -179,7 +202,7 @@ def type_node(value: object, span: Span) -> tree.Type:
             return node
         case str():
             return tree.TypeName(new_name(value, span), span=span)
-        case types.UnionType():
+        case UnionType():
             return joined(tuple(None if arg is type(None) else arg for arg in typing.get_args(value)), span).node
         case range(start=start, stop=stop, step=1):
             return interval(start, stop - 1).node

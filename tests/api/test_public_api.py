@@ -336,6 +336,23 @@ def test_an_error_of_evaluation_is_a_program_error(lift: golc.Theory) -> None:
         lift.value(lift.initial(), "1 // (at - 1)")
 
 
+def test_errors_look_as_on_the_command_line(lift: golc.Theory, path: Path) -> None:
+    with pytest.raises(golc.ProgramError) as caught:
+        lift.do(lift.initial(), "off(2)")
+    assert str(caught.value).splitlines()[:4] == [
+        "error[GL111]: `off(2)` is not possible in this state",
+        f"  --> {path}:17:8",
+        "   |",
+        "17 | action off(n: floor):",
+    ]
+    with pytest.raises(golc.UserError) as several:
+        lift.holds(lift.initial(), "a or b")
+    assert [line for line in str(several.value).splitlines() if "error" in line] == [
+        "error[GL012]: unknown name `a`",
+        "error[GL012]: unknown name `b`",
+    ]
+
+
 # ---- plans
 
 
