@@ -262,7 +262,7 @@ class Encoder:
             try:
                 found = selected(fits, self.literal(extern_value(static, key, static.span)), found)
             except NotExecutedError as error:
-                raise NeedsPythonError(error.why) from None
+                raise NeedsPythonError(error.name) from None
             except ProgramError:
                 ok = both(ok, negated(fits))
         return _with(found, ok)
