@@ -10,10 +10,14 @@ from functools import cached_property
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A text with the name under which messages speak of it (a path as the user gave it, or ``<goal>``)."""
+    """A text with the name under which messages speak of it (a path as the user gave it, or ``<goal>``).
+
+    ``editable``: it was read as golc text from a file, so that a fix may change it; no other text is ever changed.
+    """
 
     name: str
     text: str
+    editable: bool = False
 
     @cached_property
     def line_starts(self) -> list[int]:
@@ -215,11 +219,28 @@ class Label:
 
 
 @dataclass(frozen=True, slots=True)
+class Edit:
+    """The text of a span becomes another one; at an empty span something is inserted."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """A change with which a finding goes, and which its writer obviously meant; ``does`` begins with a verb."""
+
+    does: str
+    edits: tuple[Edit, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Diagnostic:
     """One finding: what, where, how bad, why, and what to do about it.
 
     ``message`` is one sentence without a full stop that names the thing and the cause; ``marker`` stands beside the
-    underlined place; ``help`` is a concrete proposal.
+    underlined place; ``help`` is a concrete proposal; ``fix`` carries it out where that is safe, and is dropped if it
+    would change a source that is not ``editable``.
     """
 
     code: Code
@@ -230,6 +251,11 @@ class Diagnostic:
     labels: tuple[Label, ...] = ()
     notes: tuple[str, ...] = ()
     help: str | None = None
+    fix: Fix | None = None
+
+    def __post_init__(self) -> None:
+        if self.fix is not None and not all(edit.span.source.editable for edit in self.fix.edits):
+            object.__setattr__(self, "fix", None)
 
 
 @dataclass
@@ -255,8 +281,9 @@ class Findings:
         help: str | None = None,
         labels: tuple[Label, ...] = (),
         notes: tuple[str, ...] = (),
+        fix: Fix | None = None,
     ) -> None:
-        self.add(Diagnostic(code, message, span, Severity.ERROR, marker, labels, notes, help))
+        self.add(Diagnostic(code, message, span, Severity.ERROR, marker, labels, notes, help, fix))
 
     def warning(
         self,

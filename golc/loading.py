@@ -12,11 +12,11 @@ from golc.checks.bricks import review_bricks
 from golc.checks.hosts import review_hosts
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
-from golc.imports import Joined, join
+from golc.imports import Joined, Reading, join
 from golc.proofs.reachable import Scope
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
-from golc.syntax.text import read_source
+from golc.syntax.text import read_domain
 from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
@@ -75,16 +75,17 @@ def examine(
     proofs: bool = False,
     reachable: bool = False,
     trust: bool = False,
+    read: Reading = read_domain,
 ) -> Examined:
     """What is to be said of a domain, including what it imports.
 
     ``constants`` are as for ``load``; with ``proofs`` also what takes all situations into account, or all that are
     ``reachable``, and what the files of the devices say. Python code that the domain names (``extern``) is executed
-    only with ``trust``.
+    only with ``trust``. ``read`` gives the texts of files that are not Python.
     """
     findings = Findings()
     try:
-        joined = _read(domain, findings)
+        joined = _read(domain, findings, read)
     except UserError as error:
         sources = _sources_of(error.diagnostics)
         return Examined(None, tuple(sorted(error.diagnostics, key=by_place(sources))), sources=sources)
@@ -94,26 +95,26 @@ def examine(
     return with_behaviours(with_proofs(examined, reachable), examined.theory)
 
 
-def _read(domain: Domain, findings: Findings) -> Joined:
+def _read(domain: Domain, findings: Findings, read: Reading) -> Joined:
     """The tree of a domain, joined with what it imports; raises ``UserError`` if there is none."""
     if not isinstance(domain, (str, Path)):
-        return _join_written(domain.written(), findings)
+        return _join_written(domain.written(), findings, read)
     if Path(domain).suffix == ".py":
         from golc.embed.modules import read_theory
 
-        return _join_written(read_theory(domain), findings)
-    source = read_source(domain)
+        return _join_written(read_theory(domain), findings, read)
+    source = read(domain)
     file = parse_file(source, findings)
     if file is None:
         raise UserError(*findings.diagnostics)
-    return join(file, source, findings)
+    return join(file, source, findings, read)
 
 
-def _join_written(written: Written, findings: Findings) -> Joined:
+def _join_written(written: Written, findings: Findings, read: Reading) -> Joined:
     """The tree of a theory in Python, joined with what it imports."""
     for diagnostic in written.findings.diagnostics:
         findings.add(diagnostic)
-    joined = join(written.file, written.sources[0], findings)
+    joined = join(written.file, written.sources[0], findings, read)
     return Joined(joined.file, (*written.sources, *joined.sources[1:]))
 
 

@@ -2,21 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import asdict
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
 
 import click
 
 from golc.cli.common import Console, console_options, constants_option
-from golc.diagnostics import counted
-
-if TYPE_CHECKING:
-    from golc.api.theory import Theory
-    from golc.diagnostics import Diagnostic
-
-LINES = ("text", "github")
-"""The formats that need not wait for the last file."""
 
 
 def _starts(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
@@ -47,6 +37,8 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 @click.option(
     "--ignore", multiple=True, metavar="CODES", callback=_starts, help="No findings whose codes begin so: GL027."
 )
+@click.option("--fix", "fixing", is_flag=True, help="Put right what is safe to put right, and write the files.")
+@click.option("--diff", is_flag=True, help="Change nothing: show what --fix would change.")
 @constants_option
 @console_options
 def command(
@@ -58,6 +50,8 @@ def command(
     trust: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
+    fixing: bool,
+    diff: bool,
     constants: Mapping[str, str],
     console: Console,
 ) -> int:
@@ -68,64 +62,14 @@ def command(
     \b
     golc check examples/delivery/delivery.gl
     golc check --strict -D floors=12 elevator.gl
+    golc check --fix my.gl
     """
-    from golc.api.loading import check
-    from golc.diagnostics import Code, Severity
+    from golc.cli.checking import Checking
     from golc.reporting.selection import Selection
 
+    if diff and form != "text":
+        raise click.UsageError("--diff shows a patch, and has no other --format.")
     selection = Selection(select, ignore)
-    findings: list[Diagnostic] = []
-    asked = undecided = 0
-    scopes: list[dict[str, Any]] = []
-    for file in files:
-        report = check(file, constants, proofs=not no_proofs, reachable=reachable, trust=trust)
-        found = [finding for finding in report.findings if selection.wants(finding.code)]
-        findings.extend(found)
-        asked += report.asked
-        undecided += report.undecided
-        if form in LINES:
-            _write(console, found, form)
-        if report.scope is not None:
-            scopes.append({"file": file, **asdict(report.scope)})
-            console.note(f"{file}: {report.scope}")
-        if console.verbosity > 0:
-            console.err(f"{file}: {_contents(report.theory)}")
-    errors = sum(finding.severity is Severity.ERROR for finding in findings)
-    warnings = sum(finding.severity is Severity.WARNING for finding in findings)
-    notes = sum(finding.severity is Severity.NOTE and finding.code is not Code.NOT_DECIDED for finding in findings)
-    if form not in LINES:
-        counts = {"errors": errors, "warnings": warnings, "questions": asked, "undecided": undecided}
-        _write_whole(console, findings, {**counts, **({"reachable": scopes} if reachable else {})}, form)
-    console.note(_summary(len(files), errors, warnings, notes, undecided))
-    return int(errors > 0 or (strict and warnings > 0))
-
-
-def _write(console: Console, findings: Iterable[Diagnostic], form: str) -> None:
-    import sys
-
-    from golc.rendering import render
-    from golc.reporting.github import annotation
-
-    for finding in findings:
-        console.out(annotation(finding) if form == "github" else render(finding, console.colored(sys.stdout)) + "\n")
-
-
-def _write_whole(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, Any], form: str) -> None:
-    import json
-
-    from golc.rendering import to_json
-    from golc.reporting import sarif
-
-    json_ = {"findings": [to_json(finding) for finding in findings], **counts}
-    console.out(json.dumps(sarif.log(findings, counts) if form == "sarif" else json_, indent=2))
-
-
-def _summary(files: int, errors: int, warnings: int, notes: int, undecided: int) -> str:
-    kinds = ((errors, "error"), (warnings, "warning"), (notes, "note"))
-    found = [counted(number, what) for number, what in kinds if number]
-    open_ = f"; {counted(undecided, 'question')} not decided" if undecided else ""
-    return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}{open_}"
-
-
-def _contents(theory: Theory | None) -> str:
-    return "not a theory" if theory is None else f"domain {theory.name} with {theory.counts()}"
+    return Checking(
+        files, form, strict, not no_proofs, reachable, trust, selection, fixing, diff, constants, console
+    ).run()

@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from typing import Any, TextIO, TypeVar
 
@@ -133,16 +134,25 @@ def address(context: click.Context, parameter: click.Parameter, value: str | Non
     return host.strip("[]"), int(port)
 
 
+def patch(name: str, before: str, after: str, how: str) -> Iterator[str]:
+    """The lines of a patch that makes one text of a file another one; ``how`` tells the second one's name."""
+    from difflib import unified_diff
+
+    old, new = (list(StringIO(text, newline="\n")) for text in (before, after))
+    for line in unified_diff(old, new, name, f"{name} ({how})"):
+        yield line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
+
+
 @contextlib.contextmanager
 def completed(path: Path) -> Iterator[TextIO]:
     """A stream to a file that takes its place, with its permissions, at the end; a pipe or a device is written to and
     never replaced."""
     if path.exists() and not path.is_file():
-        with path.open("w", encoding="utf-8") as stream:
+        with path.open("w", encoding="utf-8", newline="") as stream:
             yield stream
         return
     partial = path.with_name(f".golc-{os.getpid()}.part")
-    with partial.open("x", encoding="utf-8") as stream:
+    with partial.open("x", encoding="utf-8", newline="") as stream:
         try:
             yield stream
             stream.flush()

@@ -6,13 +6,12 @@ import os
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, completed, console_options
+from golc.cli.common import Console, completed, console_options, patch
 from golc.diagnostics import counted
 
 if TYPE_CHECKING:
@@ -65,11 +64,7 @@ class _Result:
 
     def difference(self) -> Iterator[str]:
         """The lines of a patch."""
-        from difflib import unified_diff
-
-        before, after = (list(StringIO(text, newline="\n")) for text in (self.source.text, self.text))
-        for line in unified_diff(before, after, self.name, f"{self.name} (canonical)"):
-            yield line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
+        return patch(self.name, self.source.text, self.text, "canonical")
 
     def write(self, console: Console) -> bool:
         """Write the text if it is another one; whether that has gone well."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeAlias
 
-from golc.diagnostics import Code, Label
+from golc.diagnostics import Code, Edit, Fix, Label
 from golc.syntax import tree
 from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context, Signature
@@ -176,6 +176,9 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     variables = () if given else tuple(scope.locals)
     similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
+    if similar is None and not given and name.text.lower() in ("true", "false", "none", "null"):
+        _capital(context, name)
+        return
     if similar is None and hint is BROKEN and not given:
         return  # probably a value of the type that is missing, which has been said
     if similar is None:
@@ -183,6 +186,15 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
     else:
         context.misspelt(Code.UNKNOWN_NAME, name.span, similar)
+
+
+def _capital(context: Context, name: tree.Ident) -> None:
+    """Python's ``True``, ``False`` and ``None``, and other languages' ``null``."""
+    ours = name.text.lower().replace("null", "none")
+    fix = Fix(f"write `{ours}` for `{name.text}`", (Edit(name.span, ours),))
+    small = ours == name.text.lower()
+    message = f"`{ours}` is written in small letters" if small else f"“no value” is `{ours}`, not `{name.text}`"
+    context.findings.error(Code.FOREIGN, message, name.span, "not declared", f"write `{ours}`", fix=fix)
 
 
 def _declare(name: str) -> str:
