@@ -173,7 +173,8 @@ def result_arrow(failure: Failure) -> Diagnostic | None:
     if found is None or found[1] != "->" or "COLON" not in failure.accepts or str(failure.line[0]) not in typed:
         return None
     span = failure.at(found[0], found[0] + 2)
-    return failure.finding(Code.FOREIGN, "a type stands behind `:`, not `->`", span, "write `:`")
+    fix = instead(failure.gap().to(span), ":")
+    return failure.finding(Code.FOREIGN, "a type stands behind `:`, not `->`", span, "write `:`", fix=fix)
 
 
 def foreign_word(failure: Failure) -> Diagnostic | None:
