@@ -9,13 +9,17 @@ from typing import Any, overload
 
 from golc.diagnostics import Code, Findings, Source, Span
 from golc.embed import words
-from golc.embed.clauses import Clauses, table_of
-from golc.embed.depth import check_depth
 from golc.embed.errors import Refused, meaningless, refused
-from golc.embed.functions import translated
 from golc.embed.names import golc_name, new_name
 from golc.embed.places import caller, calling_frame, frame_span
-from golc.embed.programs import Programs
+from golc.embed.reading.actions import Actions
+from golc.embed.reading.axioms import Axioms
+from golc.embed.reading.depth import check_depth
+from golc.embed.reading.devices import Devices
+from golc.embed.reading.functions import translated
+from golc.embed.reading.programs import Programs
+from golc.embed.reading.scenarios import Scenarios
+from golc.embed.reading.tables import table_of
 from golc.embed.terms import Named, expr
 from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
@@ -27,7 +31,7 @@ Making = Callable[[], "tree.Declaration"]
 MISSING: Any = object()
 
 
-class Translator(Clauses, Programs):
+class Translator(Actions, Axioms, Scenarios, Devices, Programs):
     """Everything that a translated function may hold."""
 
 
