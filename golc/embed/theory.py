@@ -106,7 +106,9 @@ class Theory:
 
             def decorated(function: Callable[..., Any]) -> TypeHandle:
                 made = self._translate(function, "type", make, name)
-                return self._types.setdefault(made.name, elsewhere(tree.Ident(made.name)))  # type: ignore[return-value]
+                handle = elsewhere(tree.Ident(made.name))
+                self._types[made.name] = handle
+                return handle
 
             return decorated if what is None else decorated(what)
         ident, span = self._named(what)
