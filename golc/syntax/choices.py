@@ -1,4 +1,4 @@
-"""Hints for values that are unknown, for the beginning, and for prunes."""
+"""Hints for values that are unknown, for the beginning, for prunes, and for functions of Python."""
 
 from __future__ import annotations
 
@@ -35,4 +35,14 @@ def nameless_prune(failure: Failure) -> Diagnostic | None:
     return failure.finding(Code.MISSING, "this prune has no name", span, "write `prune name: after …`")
 
 
-HINTS: tuple[Hint, ...] = (bare_choices, initially_colon, nameless_prune)
+def without_file(failure: Failure) -> Diagnostic | None:
+    """``extern f(a: t): int``, also with a value."""
+    if failure.line[:1] != ["extern"] or "FROM" not in failure.accepts:
+        return None
+    if failure.kind not in ("_NL", "$END", "EQ", "ASSIGN"):
+        return None
+    message, help = "this `extern` does not say in which file its function is", 'write `from "helpers.py"` at its end'
+    return failure.finding(Code.MISSING, message, failure.gap(), help)
+
+
+HINTS: tuple[Hint, ...] = (bare_choices, initially_colon, nameless_prune, without_file)
