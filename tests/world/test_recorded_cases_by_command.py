@@ -65,7 +65,8 @@ def script(trace: list[dict[str, Any]]) -> Iterator[str]:
 
 def called(record: dict[str, Any]) -> str:
     args = ",".join(map(str, record["args"]))
-    return record["action"] + (f"({args})" if args else "")
+    name: str = record["action"]
+    return name + (f"({args})" if args else "")
 
 
 @pytest.mark.parametrize("case", CASES)
@@ -77,8 +78,9 @@ def test_the_command_has_the_robot_do_what_was_recorded(case: str, tmp_path: Pat
     world.write_text(floor + PEOPLE + CASES[case] + "]\n")
     events.write_text("# people\n" + "".join(script(recorded["trace"])))
 
-    command = [sys.executable, "-m", "golc", "run", DELIVERY / "delivery.gl", "--world", world, "--events", events]
-    command += ["--journal", journal, "--speed", str(SPEED), "--stop-when-idle", "30"]
+    arguments = [DELIVERY / "delivery.gl", "--world", world, "--events", events, "--journal", journal]
+    arguments += ["--speed", SPEED, "--stop-when-idle", 30]
+    command = [sys.executable, "-m", "golc", "run", *map(str, arguments)]
     done = subprocess.run(command, input="\n", capture_output=True, text=True, timeout=PATIENCE, check=False)
 
     assert (done.returncode, done.stderr) == (0, "")
