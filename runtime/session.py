@@ -29,7 +29,7 @@ from golc.runtime.observers.journal import Journal
 from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace
 from golc.runtime.observers.whereabouts import Whereabouts
 from golc.runtime.signals import ending_on_signals
-from golc.runtime.sources.exogenous import COMMANDS, Hands, Terminal, Timetable, from_operator
+from golc.runtime.sources.exogenous import COMMANDS, DEEDS, Hands, Terminal, Timetable, from_operator
 from golc.runtime.sources.listener import Listener
 from golc.runtime.sources.polling import Poller
 from golc.runtime.sources.schedule import Schedule, parse_schedule, read_schedule
@@ -305,9 +305,8 @@ class _Session:
         if self.interactive:
             event = one_of([action for action in self.theory.actions.values() if from_operator(self.theory, action)])
             reports = "" if event is None else f"an exogenous action such as {event}, or "
-            self.say(f"type {reports}one of " + ", ".join(f"!{name}" for name in COMMANDS))
-            if self.robot is not None:
-                self.say("or what you do at the robot: !press BUTTON, !lift, !put back, !put at station NAME")
+            names = [*COMMANDS, *([] if self.robot is None else DEEDS)]
+            self.say(f"type {reports}one of " + ", ".join(f"!{name}" for name in names))
 
     def say(self, text: str) -> None:
         """Something good to know."""

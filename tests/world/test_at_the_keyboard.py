@@ -82,7 +82,7 @@ def alone(tmp_path: Path) -> Path:
 
 def test_the_operator_of_a_run_presses_the_button_and_carries_the_robot(terminal: Open, alone: Path) -> None:
     there = terminal("run", DOMAIN, "--world", alone, "--speed", 20)
-    there.until("!press BUTTON, !lift, !put back")
+    there.until("!press, !lift, !put")
     there.until("delivery.gl:75 control")  # it has signalled, and waits for the button
     there.type("!press go for 0.5 s")
     there.until("you: press go")
