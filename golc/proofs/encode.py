@@ -236,7 +236,7 @@ class Encoder(Values):
                     fits, self.literal(extern_value(static, key, static.span), strip_optional(static.type)), found
                 )
             except NotExecutedError as error:
-                raise NeedsPythonError(error.why) from None
+                raise NeedsPythonError(error.name) from None
             except ProgramError:
                 ok = both(ok, negated(fits))
         return with_ok(found, ok)

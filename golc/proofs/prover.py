@@ -80,7 +80,7 @@ class Prover:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
         except NeedsPythonError as error:
-            return Undecided(str(error), error.help)
+            return Undecided(str(error), function=error.name)
         except NotDecidedError as error:
             undecided = Undecided(str(error))
         if not all(case.whole for case, _ in found):
