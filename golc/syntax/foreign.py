@@ -193,6 +193,9 @@ def _translated(failure: Failure) -> Fix | None:
     here = failure.here()
     if here.text in ("then", "do", "begin"):
         return sign_at(here, ":") if ends_line(here) else None
+    differs = re.match(r"is\s+not\b", failure.rest)
+    if differs:
+        return instead(failure.at(failure.place, failure.place + differs.end()), "!=")
     ours = TRANSLATED.get(here.text)
     return None if ours is None else instead(here, ours)
 
