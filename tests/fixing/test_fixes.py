@@ -53,6 +53,7 @@ def test_what_is_fixed(tmp_path: Path, before: str, after: str) -> None:
     "text",
     [
         "proc p:\n    if f:\n\ta\n",  # a tab may have any width
+        "fluent &&: bool = f\n",  # a name is missing
         "goal g: n / 2 = 1\n",  # which may not be meant to round
         "goal g: n => 2\n",  # implication, or at least
         "goal g: f or f, f\n",  # which the comma does not join
