@@ -32,7 +32,7 @@ class Obligations:
         a finding. ``what`` completes "… is not decided"."""
         answer = self._answer(question, what, span)
         if isinstance(answer, Witness) and not answer.certain:
-            self._not_decided(Undecided("it depends on what the agent knows then"), what, span)
+            self.not_decided(Undecided("it depends on what the agent knows then"), what, span)
             return None
         return answer if isinstance(answer, Witness) else None
 
@@ -44,10 +44,11 @@ class Obligations:
         self.asked += 1
         answer = self.prover.answer(question)
         if isinstance(answer, Undecided) and what:
-            self._not_decided(answer, what, span)
+            self.not_decided(answer, what, span)
         return answer
 
-    def _not_decided(self, why: Undecided, what: str, span: Span) -> None:
+    def not_decided(self, why: Undecided, what: str, span: Span) -> None:
+        """Report that nobody knows, and why."""
         self.undecided += 1
         message = f"{what} is not decided: {why.reason}"
         note = Diagnostic(Code.NOT_DECIDED, message, span, Severity.NOTE, "not decided", help=why.help)

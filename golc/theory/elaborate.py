@@ -40,6 +40,7 @@ from golc.theory.theory import (
     Static,
 )
 from golc.theory.types import Type
+from golc.theory.unfolding import check_unfolding
 
 T = TypeVar("T")
 
@@ -124,7 +125,8 @@ def _elaborate(
         initially(context, [node for node in file.declarations if isinstance(node, tree.Initially)]),
         prunes(context, [node for node in file.declarations if isinstance(node, tree.Prune | tree.PruneAfter)]),
     )
-    _check_circles(context, theory)
+    if not _has_circles(context, theory):
+        check_unfolding(context, theory)
     check_initially(context, theory)
     context.finish()
     return theory
@@ -183,16 +185,19 @@ def _with_recursion(procedures: dict[str, Procedure]) -> Mapping[str, Procedure]
     return {name: replace(procedure, recursive=name in recursive) for name, procedure in procedures.items()}
 
 
-def _check_circles(context: Context, theory: BasicActionTheory) -> None:
-    """No precondition may ask for itself through ``poss(…)``; definitions alone are checked where they are resolved."""
+def _has_circles(context: Context, theory: BasicActionTheory) -> bool:
+    """Whether a precondition asks for itself through ``poss(…)``, which is a finding; definitions alone are checked
+    where they are resolved."""
     graph = {f"action {name}": _asks(action.preconditions) for name, action in theory.actions.items()}
     graph |= {f"definition {name}": _asks((found.body,)) for name, found in theory.definitions.items()}
-    for circle in circular(graph):
+    circles = circular(graph)
+    for circle in circles:
         places = [_place(theory, node) for node in circle]
         action = next(place for place in places if isinstance(place, Action))
         labels = tuple([Label(place.span, "part of the circle") for place in places if place is not action][:5])
         message = f"the precondition of `{action.name}` depends on itself"
         context.error(Code.CIRCULAR, message, action.span, "asks `poss` of itself", labels=labels)
+    return bool(circles)
 
 
 def _place(theory: BasicActionTheory, node: str) -> Action | Definition:

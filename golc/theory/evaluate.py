@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
 from typing import Generic, TypeAlias, TypeVar, cast
 
 from golc.theory import errors
@@ -42,6 +43,9 @@ Env: TypeAlias = tuple[Value, ...]
 S = TypeVar("S")
 """What stands for a situation."""
 
+MOST_REMEMBERED = 100_000
+"""How many values of static functions are kept."""
+
 DEPTH = 1_000
 """How many calls of static functions may be open at a time: a recursion that goes deeper is taken for endless."""
 
@@ -56,6 +60,11 @@ class Evaluator(Generic[S]):
     """How many more terms it evaluates."""
     depth = 0
     """How many calls of static functions are open."""
+
+    @cached_property
+    def _statics(self) -> dict[tuple[str, Env], Value]:
+        """The values of static functions, which are the same in every situation, as far as they have been asked for."""
+        return {}
 
     def static(self, name: str) -> Static:
         """A static function."""
@@ -183,6 +192,8 @@ class Evaluator(Generic[S]):
         args = self.arguments(term.static, static.parameters, term.args, situation, env)
         if isinstance(static.body, Mapping):
             return static.body[args]
+        if (term.static, args) in self._statics:
+            return self._statics[term.static, args]
         if self.depth >= DEPTH:
             raise errors.endless(static.span, static.name)
         self.depth += 1
@@ -194,6 +205,8 @@ class Evaluator(Generic[S]):
             self.depth -= 1
         if value not in static.type:
             raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
+        if len(self._statics) < MOST_REMEMBERED:
+            self._statics[term.static, args] = value
         return value
 
     def _quantified(self, term: Quantified, situation: S, env: Env) -> Value:

@@ -16,7 +16,7 @@ from typing import Any
 
 PROGRAM = Path(__file__).with_name("worker.py")
 
-PATIENCE = 20.0
+PATIENCE = 60.0
 """Seconds of processor time that a stage of an input may take before it is given up."""
 
 INPUTS = 400
