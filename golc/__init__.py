@@ -3,10 +3,10 @@
 The names below are the public Python API, the same that the command line uses; each is imported when it is first used.
 
 >>> import golc
->>> theory = golc.load("examples/elevator/elevator.gl")
->>> plans = golc.Planning(golc.executable(theory, "control"), golc.Limits())
->>> [str(action) for action in next(iter(plans)).actions][:3]
-['up', 'up', 'open']
+>>> lift = golc.load("examples/elevator/elevator.gl")
+>>> print(lift.plan("go_to(5)"))
+up
+up
 """
 
 from __future__ import annotations
@@ -15,48 +15,65 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from golc.api.loading import check, load
+    from golc.api.report import Report
+    from golc.api.state import Key, State
+    from golc.api.theory import NoPlanError, Theory
     from golc.diagnostics import DeviceError, Diagnostic, GolcError, LimitError, ProgramError, UserError
-    from golc.loading import examine, load
-    from golc.planning.limits import Limits
-    from golc.planning.planner import Executable, Planning, executable
     from golc.planning.plans import Case, Outcome, Plan
+    from golc.program.blame import Blocked
     from golc.rendering import render
-    from golc.situation.dynamics import Dynamics
+    from golc.runtime.loop.happenings import End
+    from golc.runtime.running import Occurrence, Run, run
+    from golc.runtime.session import Voice
+    from golc.theory.ground import Call
     from golc.theory.statements import Strategy
-    from golc.theory.theory import BasicActionTheory
+    from golc.theory.types import Unknown
 
 __all__ = [
-    "BasicActionTheory",
+    "Blocked",
+    "Call",
     "Case",
     "DeviceError",
     "Diagnostic",
-    "Dynamics",
-    "Executable",
+    "End",
     "GolcError",
+    "Key",
     "LimitError",
-    "Limits",
+    "NoPlanError",
+    "Occurrence",
     "Outcome",
     "Plan",
-    "Planning",
     "ProgramError",
+    "Report",
+    "Run",
+    "State",
     "Strategy",
+    "Theory",
+    "Unknown",
     "UserError",
-    "examine",
-    "executable",
+    "Voice",
+    "check",
     "load",
     "render",
+    "run",
 ]
 
 _ROOMS = {
+    "golc.api.loading": ("check", "load"),
+    "golc.api.report": ("Report",),
+    "golc.api.state": ("Key", "State"),
+    "golc.api.theory": ("NoPlanError", "Theory"),
     "golc.diagnostics": ("DeviceError", "Diagnostic", "GolcError", "LimitError", "ProgramError", "UserError"),
-    "golc.loading": ("examine", "load"),
-    "golc.planning.limits": ("Limits",),
-    "golc.planning.planner": ("Executable", "Planning", "executable"),
     "golc.planning.plans": ("Case", "Outcome", "Plan"),
+    "golc.program.blame": ("Blocked",),
     "golc.rendering": ("render",),
-    "golc.situation.dynamics": ("Dynamics",),
+    "golc.runtime.loop.happenings": ("End",),
+    "golc.runtime.running": ("Occurrence", "Run", "run"),
+    "golc.runtime.session": ("Voice",),
+    "golc.theory.ground": ("Call",),
     "golc.theory.statements": ("Strategy",),
-    "golc.theory.theory": ("BasicActionTheory",),
+    "golc.theory.types": ("Unknown",),
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names}
 

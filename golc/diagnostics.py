@@ -10,10 +10,14 @@ from functools import cached_property
 
 @dataclass(frozen=True, eq=False)
 class Source:
-    """A text with the name under which messages speak of it (a path as the user gave it, or ``<goal>``)."""
+    """A text with the name under which messages speak of it (a path as the user gave it, or ``<goal>``).
+
+    ``editable``: it was read as golc text from a file, so that a fix may change it; no other text is ever changed.
+    """
 
     name: str
     text: str
+    editable: bool = False
 
     @cached_property
     def line_starts(self) -> list[int]:
@@ -117,6 +121,9 @@ class Code(Enum):
     LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
     IDLE_IGNORE = ("GL032", "a `golc: ignore` comment has no effect")
 
+    PYTHON = ("GL033", "a Python function is not there, or does not fit its declaration")
+    NOT_EXECUTED = ("GL034", "Python code is not executed")
+
     EFFECT_CONFLICT = ("GL040", "two effects of an action may give one fluent two values")
     EFFECT_FAILS = ("GL041", "an action can go wrong where it is possible")
     INVARIANT_NOT_KEPT = ("GL042", "an action may break an invariant")
@@ -158,8 +165,18 @@ class Code(Enum):
     UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
     TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
     TOO_LARGE = ("GL118", "a number, a set or a list grows too large")
+    EXTERN = ("GL119", "a Python function in a term fails")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
+
+    # 140..149: theories in Python
+    PYTHON_SYNTAX = ("GL140", "the Python of a theory cannot be read")
+    PYTHON_RAISED = ("GL141", "the Python of a theory fails")
+    PYTHON_TRUTH = ("GL142", "Python asks a term for its truth")
+    PYTHON_MEANING = ("GL143", "Python that has no meaning in a theory")
+    PYTHON_VALUE = ("GL144", "a Python value that means nothing in a theory")
+    PYTHON_CHANGED = ("GL145", "a name of Python has changed since the function was declared")
+    NO_THEORY = ("GL146", "a Python file does not hold exactly one theory")
 
     NEVER_FIRES = ("GL071", "an interrupt can never fire")
     STUCK = ("GL072", "an action can never be possible where it stands")
@@ -168,6 +185,7 @@ class Code(Enum):
 
     # 080..099: devices and NQC
     NO_DEVICE = ("GL080", "a primitive action has no device")
+    SEVERAL_MESSAGES = ("GL081", "a number takes several messages")
     NUMBER_CLASH = ("GL082", "two bindings take the same number")
     NUMBER_RANGE = ("GL083", "a number does not fit the brick")
     BINDING_UNBOUNDED = ("GL084", "a binding ranges over a type whose values cannot be listed")
@@ -201,11 +219,28 @@ class Label:
 
 
 @dataclass(frozen=True, slots=True)
+class Edit:
+    """The text of a span becomes another one; at an empty span something is inserted."""
+
+    span: Span
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Fix:
+    """A change with which a finding goes, and which its writer obviously meant; ``does`` begins with a verb."""
+
+    does: str
+    edits: tuple[Edit, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Diagnostic:
     """One finding: what, where, how bad, why, and what to do about it.
 
     ``message`` is one sentence without a full stop that names the thing and the cause; ``marker`` stands beside the
-    underlined place; ``help`` is a concrete proposal.
+    underlined place; ``help`` is a concrete proposal; ``fix`` carries it out where that is safe, and is dropped if it
+    would change a source that is not ``editable``.
     """
 
     code: Code
@@ -216,6 +251,11 @@ class Diagnostic:
     labels: tuple[Label, ...] = ()
     notes: tuple[str, ...] = ()
     help: str | None = None
+    fix: Fix | None = None
+
+    def __post_init__(self) -> None:
+        if self.fix is not None and not all(edit.span.source.editable for edit in self.fix.edits):
+            object.__setattr__(self, "fix", None)
 
 
 @dataclass
@@ -227,6 +267,11 @@ class Findings:
     def add(self, diagnostic: Diagnostic) -> None:
         self.diagnostics.append(diagnostic)
 
+    def once(self, diagnostic: Diagnostic) -> None:
+        """Add a finding that may have been made on another way."""
+        if diagnostic not in self.diagnostics:
+            self.add(diagnostic)
+
     def error(
         self,
         code: Code,
@@ -236,8 +281,9 @@ class Findings:
         help: str | None = None,
         labels: tuple[Label, ...] = (),
         notes: tuple[str, ...] = (),
+        fix: Fix | None = None,
     ) -> None:
-        self.add(Diagnostic(code, message, span, Severity.ERROR, marker, labels, notes, help))
+        self.add(Diagnostic(code, message, span, Severity.ERROR, marker, labels, notes, help, fix))
 
     def warning(
         self,
@@ -267,14 +313,24 @@ class GolcError(Exception):
     exit_code = 70
 
 
+def _rendered(diagnostics: tuple[Diagnostic, ...]) -> str:
+    """The text of an error, made when a traceback or somebody else wants it: what the command line would write."""
+    from golc.rendering import render
+
+    return "\n\n".join(map(render, diagnostics))
+
+
 class UserError(GolcError):
     """The input is wrong: carries what is to be said about it."""
 
     exit_code = 1
 
     def __init__(self, *diagnostics: Diagnostic) -> None:
-        super().__init__("; ".join(f"{d.span}: {d.message}" for d in diagnostics))
+        super().__init__(*diagnostics)
         self.diagnostics = diagnostics
+
+    def __str__(self) -> str:
+        return _rendered(self.diagnostics)
 
 
 class ProgramError(GolcError):
@@ -283,8 +339,11 @@ class ProgramError(GolcError):
     exit_code = 5
 
     def __init__(self, diagnostic: Diagnostic) -> None:
-        super().__init__(f"{diagnostic.span}: {diagnostic.message}")
+        super().__init__(diagnostic)
         self.diagnostic = diagnostic
+
+    def __str__(self) -> str:
+        return _rendered((self.diagnostic,))
 
 
 class LimitError(GolcError):

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TypeAlias
 
 from golc.diagnostics import Code, Diagnostic, Findings, Label, Source, UserError
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
-from golc.syntax.text import read_source
+from golc.syntax.text import read_domain
+
+Reading: TypeAlias = Callable[[str | Path], Source]
+"""Gives the text of a domain file; raises ``UserError`` if it cannot be read."""
 
 
 @dataclass(frozen=True)
@@ -24,11 +28,11 @@ class Joined:
     sources: tuple[Source, ...]
 
 
-def join(file: tree.File, source: Source, findings: Findings) -> Joined:
+def join(file: tree.File, source: Source, findings: Findings, read: Reading = read_domain) -> Joined:
     """Follow the imports of a file; each file is joined once, where it is imported first."""
     if not any(isinstance(node, tree.Import) for node in file.declarations):
         return Joined(file, (source,))
-    joiner = _Joiner(findings)
+    joiner = _Joiner(findings, read)
     joiner.enter(file, source, None)
     joiner.run()
     return Joined(replace(file, declarations=tuple(joiner.declarations)), tuple(joiner.sources))
@@ -49,6 +53,7 @@ class _Joiner:
     """Goes through the files depth first; a stack instead of recursion, for a chain of imports may be long."""
 
     findings: Findings
+    read: Reading
     declarations: list[tree.Declaration] = field(default_factory=list)
     sources: list[Source] = field(default_factory=list)
     seen: set[Path] = field(default_factory=set)
@@ -79,7 +84,7 @@ class _Joiner:
         if path in self.seen:
             return True
         try:
-            source = read_source(name)
+            source = self.read(name)
         except UserError as error:
             for diagnostic in error.diagnostics:
                 self.findings.add(_at_the_import(diagnostic, node))

@@ -9,7 +9,7 @@ from enum import Enum
 from itertools import groupby
 from typing import Any
 
-from golc.diagnostics import Diagnostic, Label, Severity, Source, Span
+from golc.diagnostics import Diagnostic, Fix, Label, Severity, Source, Span
 
 TAB = 4
 """Columns between tab stops."""
@@ -47,8 +47,9 @@ def to_json(diagnostic: Diagnostic) -> dict[str, Any]:
 
     ``code``, ``title``, ``severity`` (``error``, ``warning``, ``note``), ``message``, ``span``, ``marker`` (the text
     beside the mark, perhaps empty), ``labels`` (each a ``span`` and a ``text``), ``notes`` (texts), ``help`` (a text or
-    null). A span has ``file``, ``line``, ``column``, ``end_line``, ``end_column``: all from 1, columns in characters,
-    the end exclusive.
+    null), ``fix`` (null, or what it ``does`` and its ``edits``, each a ``span`` and its new ``text``).
+    A span has ``file``, ``line``, ``column``, ``end_line``, ``end_column``: all from 1, columns in characters, the end
+    exclusive.
     """
     return {
         "code": diagnostic.code.code,
@@ -60,7 +61,12 @@ def to_json(diagnostic: Diagnostic) -> dict[str, Any]:
         "labels": [{"span": _span(label.span), "text": label.text} for label in diagnostic.labels],
         "notes": list(diagnostic.notes),
         "help": diagnostic.help,
+        "fix": None if diagnostic.fix is None else _fix(diagnostic.fix),
     }
+
+
+def _fix(fix: Fix) -> dict[str, Any]:
+    return {"does": fix.does, "edits": [{"span": _span(edit.span), "text": edit.text} for edit in fix.edits]}
 
 
 def _span(span: Span) -> dict[str, Any]:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import os
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack, closing
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from golc.diagnostics import DeviceError, Diagnostic, Findings, Source, Span
+from golc.diagnostics import DeviceError, Diagnostic, Findings, Source, Span, UserError
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
@@ -26,13 +26,14 @@ from golc.runtime.loop.inbox import Inbox
 from golc.runtime.loop.inbox import Source as EventSource
 from golc.runtime.loop.policy import OnImpossible, OnSurprise, Policy
 from golc.runtime.observers.journal import Journal
-from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace, summary
+from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace
 from golc.runtime.observers.whereabouts import Whereabouts
 from golc.runtime.signals import ending_on_signals
 from golc.runtime.sources.exogenous import COMMANDS, Terminal, Timetable, from_operator
 from golc.runtime.sources.listener import Listener
 from golc.runtime.sources.polling import Poller
-from golc.runtime.sources.schedule import Schedule, read_schedule
+from golc.runtime.sources.schedule import Schedule, parse_schedule, read_schedule
+from golc.situation.summary import summary
 from golc.theory.ground import Call, one_of, read_value
 from golc.theory.order import arranged
 from golc.theory.statements import Message
@@ -48,10 +49,11 @@ SIMULATED = "sim"
 
 @dataclass(frozen=True)
 class Settings:
-    """What the command line says about a run; see ``golc run --help``. Durations are in simulated seconds."""
+    """How a run is to be; see ``golc.run``. Durations are in simulated seconds."""
 
     port: str | None = None
-    events: Path | None = None
+    events: str | Path | Sequence[str] | None = None
+    """The path of an events file, or its lines."""
     listen: tuple[str, int] | None = None
     journal: Path | None = None
     stop_when_idle: float | None = None
@@ -66,20 +68,36 @@ class Settings:
     world: str | None = None
     """The file of the world in which a simulated brick is, ``none``, or None for the one beside the domain."""
     picture: Path | None = None
-    constants: Mapping[str, str] = field(default_factory=dict)
+
+
+def _nowhere(line: str) -> None:
+    """Nobody is to be told."""
+
+
+def _unheard(diagnostics: tuple[Diagnostic, ...]) -> None:
+    """Nobody is to be told."""
 
 
 @dataclass(frozen=True)
 class Voice:
-    """How a run speaks: ``write`` shows a line, ``complain`` the diagnostics of a refused line."""
+    """How a run speaks to a person, and listens to one; by default to nobody.
 
-    write: Callable[[str], None]
-    complain: Callable[[tuple[Diagnostic, ...]], None]
-    style: Style
-    verbosity: int
+    ``write`` gets each line of the trace, ``complain`` the diagnostics of a refused line. ``verbosity`` is -1 (messages
+    and trouble only), 0, or 1. ``ask`` gets each question to the operator and returns the answer, as ``input`` does;
+    with ``stdin`` the operator sits at standard input instead, and may report exogenous actions there.
+    """
+
+    write: Callable[[str], object] = _nowhere
+    complain: Callable[[tuple[Diagnostic, ...]], object] = _unheard
+    style: Style = field(default=Style(color=False, unicode=True), repr=False)
+    verbosity: int = 0
+    ask: Callable[[str], str] | None = None
+    stdin: bool = False
 
 
-def run_online(theory: BasicActionTheory, program: Call, settings: Settings, voice: Voice) -> Outcome:
+def run_online(
+    theory: BasicActionTheory, program: Call, settings: Settings, voice: Voice, observers: Iterable[Observer] = ()
+) -> Outcome:
     """Run a procedure of a theory online until it ends, however it ends; the signals that end a process end it too.
 
     Raises ``UserError`` before anything happens if the theory, its devices or the events file are wrong; afterwards
@@ -87,7 +105,7 @@ def run_online(theory: BasicActionTheory, program: Call, settings: Settings, voi
     """
     with ExitStack() as stack:
         stack.enter_context(ending_on_signals())
-        return _Session(theory, program, settings, voice, stack).run()
+        return _Session(theory, program, settings, voice, stack).run(observers)
 
 
 class _Session:
@@ -106,14 +124,15 @@ class _Session:
         self.robot: RobotInWorld | None = None
         self.executable = executable(theory, program.action, program.args)
         self.dynamics = self.executable.dynamics
-        self.stdin = _descriptor()
+        self.stdin = _descriptor() if voice.stdin else None
         self.interactive = self.stdin is not None and os.isatty(self.stdin)
-        self.desk = Desk(self.ask, self.interactive, self.stdin is not None, self.plausible)
+        answers = self.stdin is not None or voice.ask is not None
+        self.desk = Desk(self.ask, self.interactive, answers, self.plausible)
 
-    def run(self) -> Outcome:
+    def run(self, watching: Iterable[Observer]) -> Outcome:
         settings = self.settings
-        schedule = Schedule() if settings.events is None else read_schedule(settings.events, self.theory)
-        observers = self.observers()
+        schedule = self.schedule or Schedule()
+        observers = [*self.observers(), *watching]
         devices = build_devices(self.theory, Surroundings(self.desk, self.speak, self.link()))
         clock = Clock(time.monotonic, time.monotonic(), settings.speed)
         timetable = Timetable(schedule.only(self.is_ours), self.inbox, clock)
@@ -140,8 +159,22 @@ class _Session:
         opened = Journal(journal, self.dynamics, self.program.action, self.program.args)
         return [self.stack.enter_context(closing(opened)), trace]
 
+    @cached_property
+    def schedule(self) -> Schedule | None:
+        """What is to happen, if somebody has said it; raises ``UserError`` for wrong lines."""
+        events = self.settings.events
+        if events is None:
+            return None
+        if isinstance(events, str | Path):
+            return read_schedule(events, self.theory)
+        findings = Findings()
+        schedule = parse_schedule(Source("<events>", "\n".join(events)), self.theory, findings)
+        if findings.has_errors:
+            raise UserError(*findings.diagnostics)
+        return schedule
+
     def link(self) -> Link | None:
-        """The way to the bricks, if the domain has any; starts a simulated one where no port is given."""
+        """The way to the bricks, if the domain has any: to simulated ones where no port is given."""
         settings = self.settings
         if self.place.world is None and settings.picture is not None:
             raise DeviceError("there is no world of which a picture could be drawn", help="name one with --world")
@@ -151,13 +184,10 @@ class _Session:
             return Link(settings.port or "", settings.speed)
         if self.place.world is not None:
             return self.link_to_robot(self.place.world)
-        from golc.runtime.rcxsim.process import BrickOptions, spawn
+        from golc.runtime.standin import bricks_of_theory
 
-        options = BrickOptions(
-            speed=settings.speed, seed=settings.seed, events=settings.events, constants=settings.constants
-        )
-        brick = self.stack.enter_context(spawn(self.theory.source.name, options))
-        return Link(brick.port, settings.speed)
+        transport = bricks_of_theory(self.theory, self.schedule, settings.speed, settings.seed)
+        return Link(transport.name, settings.speed, transport)
 
     def link_to_robot(self, world: Path) -> Link:
         """The way to a brick that is simulated in a world."""
@@ -254,7 +284,10 @@ class _Session:
             self.voice.write(self.voice.style.paint(RED, f"{MARGIN}{text}"))
 
     def ask(self, question: str) -> None:
-        """Show a question, or a word about a wrong answer."""
+        """Show a question, or a word about a wrong answer, to whoever answers it."""
+        if self.voice.ask is not None:
+            self.desk.offer(self.voice.ask(question), report=False)
+            return
         self.voice.write(self.voice.style.paint(BOLD, f"{MARGIN}? {question}"))
 
     def speak(self, message: Message, args: Args) -> str:

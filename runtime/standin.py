@@ -20,10 +20,12 @@ from golc.runtime.rcxsim.inprocess import InProcess
 from golc.runtime.rcxsim.line import LineOptions
 from golc.runtime.rcxsim.machine import simulator
 from golc.runtime.rcxsim.machine.options import Firmware, Options
+from golc.runtime.rcxsim.theory import simulator as simulator_of_theory
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.rcxsim.world.picture import draw
 from golc.runtime.rcxsim.world.world import World
 from golc.runtime.rcxsim.world.worldfile import read_world
+from golc.runtime.sources.schedule import Schedule
 from golc.theory.theory import BasicActionTheory
 
 NO_WORLD = "none"
@@ -60,6 +62,12 @@ def place(theory: BasicActionTheory, bricks: Mapping[str, ActionMap], world: str
     return Place(beside)
 
 
+def bricks_of_theory(theory: BasicActionTheory, schedule: Schedule | None, speed: float, seed: int) -> InProcess:
+    """The end of a line to bricks that do what the theory says; without a schedule events come by chance."""
+    line = simulator_of_theory.build(theory, LineOptions(), schedule, seed, Trace())
+    return InProcess(line, speed, "a simulated brick")
+
+
 class RobotInWorld:
     """A brick with the program of a domain's behaviours, in a world, at the end of a line in this process.
 
@@ -71,7 +79,7 @@ class RobotInWorld:
     ) -> None:
         self._world = World(read_world(path), seed, trace)
         with tempfile.TemporaryDirectory() as folder:
-            image = build(theory, actions, Target.RCX2, Path(folder)).image
+            image = build(theory, actions.device, Target.RCX2, Path(folder)).image
         line, _ = simulator.build(Firmware.V2, image, self._world, Options(seed=seed), LineOptions(), trace)
         self.transport = InProcess(line, speed, str(path))
 

@@ -45,14 +45,17 @@ class Beginning:
         return ", ".join(shown[:5]) + (", …" if len(shown) > 5 else "")
 
 
+def leaves_open(theory: BasicActionTheory) -> bool:
+    """Whether several worlds may be possible at first, or none."""
+    return bool(theory.initially) or any(isinstance(fluent.initial, Choice) for fluent in theory.fluents.values())
+
+
 def initial_worlds(theory: BasicActionTheory, findings: Findings) -> Beginning | None:
-    """The initial worlds; none if the theory leaves nothing open, or leaves no world, which is a finding."""
-    if not theory.initially and not any(isinstance(fluent.initial, Choice) for fluent in theory.fluents.values()):
-        return None
+    """The initial worlds of a theory that leaves something open; none, and a finding, if none is possible."""
     try:
         found = Beginning(dynamics := Dynamics(theory), dynamics.initial())
     except ProgramError as error:
-        findings.add(error.diagnostic)
+        findings.once(error.diagnostic)
         return None
     free = Dynamics(replace(theory, initially=()))
     everything = Beginning(free, free.initial())

@@ -15,12 +15,16 @@ from golc.theory.theory import BasicActionTheory
 
 
 class Connected:
-    """Remembers what each formula reads; fluents of one invariant are connected."""
+    """Remembers what each formula reads; fluents of one invariant are connected.
 
-    def __init__(self, theory: BasicActionTheory) -> None:
+    ``some``: only some of the situations are looked at, where any fluents may go together.
+    """
+
+    def __init__(self, theory: BasicActionTheory, some: bool) -> None:
         self._theory = theory
         self._read: dict[int, tuple[Asked, frozenset[str]]] = {}
-        self._tied = _tied([fluents_read(theory, [theory.definitions[name].body]) for name in theory.invariants])
+        invariants = [fluents_read(theory, [theory.definitions[name].body]) for name in theory.invariants]
+        self._tied = _tied([frozenset(theory.fluents)] if some else invariants)
 
     def fluents(self, asked: Asked) -> frozenset[str]:
         """The fluents that a formula reads."""
@@ -58,6 +62,7 @@ def _tied(groups: Iterable[frozenset[str]]) -> dict[str, str]:
         return name
 
     for group in groups:
+        first = min(group, default="")
         for name in group:
-            links[root(name)] = root(min(group))
+            links[root(name)] = root(first)
     return {name: root(name) for name in [*links]}

@@ -6,18 +6,15 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from golc.diagnostics import Code, Findings, Label, Span, UserError
+from golc.checks.bricks import RCX, check_brick, check_ranges
+from golc.diagnostics import Code, Findings, Label
 from golc.nqc.actionmap import ActionMap, Entry
-from golc.nqc.behaviours import check_forms
 from golc.nqc.numbering import implied, number_device
-from golc.nqc.userfiles import scan_file, user_file
-from golc.nqc.wire import DEFAULTS, LAST_RANGE
-from golc.nqc.words import LONGEST_NAME, complaint
+from golc.nqc.wire import LAST_RANGE
 from golc.theory.fitting import size
 from golc.theory.suggest import did_you_mean
-from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, ByStart, Device, Fixed, Parameter
+from golc.theory.theory import Action, BasicActionTheory, Binding, Device, Fixed, Parameter
 
-RCX = "rcx"
 OPERATOR = "operator"
 """The kind of device that reports even where none is declared: there is always someone at the terminal."""
 
@@ -57,11 +54,9 @@ def check_devices(theory: BasicActionTheory, findings: Findings) -> None:
     _check_done(theory, bricks, findings)
     _check_answers(theory, findings)
     _check_reported(theory, bricks, findings)
-    _check_ranges([actions for actions in bricks if actions.device in sound], findings)
+    check_ranges([actions for actions in bricks if actions.device in sound], findings)
     for actions in bricks:
-        _check_ends(actions, findings)
-        _check_behaviour_names(actions, findings)
-        _check_file(actions, findings)
+        check_brick(theory, actions, findings)
 
 
 def _check_settings(device: Device, findings: Findings) -> bool:
@@ -190,118 +185,3 @@ def _reporting_help(theory: BasicActionTheory, action: Action) -> str:
     if RCX in action.sources:
         return "declare the device"
     return f"only bricks and operators report: write `from {RCX}` or `from {OPERATOR}`"
-
-
-def _check_ranges(bricks: list[ActionMap], findings: Findings) -> None:
-    """The messages of a brick lie in 1..255 and apart from each other and from those of every other brick."""
-    taken: list[_Messages] = []
-    for actions in bricks:
-        own = [_Messages(actions.device, kind, numbers) for kind, numbers in actions.wire.ranges().items()]
-        for messages in own:
-            if messages.numbers.start < 1 or messages.numbers.stop > 256:
-                findings.error(
-                    Code.MESSAGE_RANGES,
-                    f"the {messages} of `{actions.device.name}` do not fit: there are the messages 1 to 255",
-                    _place(actions.device),
-                )
-        clashes = [(one, two) for place, one in enumerate(own) for two in [*taken, *own[:place]] if one.meets(two)]
-        if clashes:
-            _report_overlap(*clashes[0], findings)
-        else:
-            taken += own
-
-
-@dataclass(frozen=True)
-class _Messages:
-    """One kind of message of a brick."""
-
-    device: Device
-    kind: str
-    numbers: range
-
-    def meets(self, other: _Messages) -> bool:
-        return self.numbers.start < other.numbers.stop and other.numbers.start < self.numbers.stop
-
-    def __str__(self) -> str:
-        return f"{self.kind} ({self.numbers.start} to {self.numbers.stop - 1})"
-
-
-def _report_overlap(one: _Messages, two: _Messages, findings: Findings) -> None:
-    if one.device is two.device:
-        findings.error(Code.MESSAGE_RANGES, f"the {one} and the {two} overlap", _place(one.device))
-        return
-    findings.error(
-        Code.MESSAGE_RANGES,
-        f"the {one} of `{one.device.name}` overlap with the {two} of `{two.device.name}`",
-        _place(one.device),
-        labels=(Label(_place(two.device), f"`{two.device.name}`"),),
-        help=f"each brick in sight needs messages of its own: write `set range 1` for `{one.device.name}`",
-    )
-
-
-def _place(device: Device) -> Span:
-    """The setting that chooses the messages, or the device itself."""
-    chosen = [setting for name, setting in device.settings.items() if name == "range" or name in DEFAULTS]
-    return chosen[0].span if chosen else device.span
-
-
-def _check_ends(actions: ActionMap, findings: Findings) -> None:
-    """A task goes on when its action is done; something has to say that it has ended."""
-    if any(entry.exogenous for entry in actions.entries):
-        return
-    for entry in actions.entries:
-        if isinstance(entry.behaviour, ByStart):
-            findings.warning(
-                Code.NO_END,
-                f"`{entry.action}` starts a task, but the brick reports nothing that could tell its end",
-                entry.behaviour.span,
-                help=f"bind an exogenous action to `{actions.device.name}`, or use `by call` to wait for the end",
-            )
-
-
-def _check_behaviour_names(actions: ActionMap, findings: Findings) -> None:
-    """A behaviour is named as NQC allows it, and used in one way."""
-    first: dict[str, Entry] = {}
-    for entry in actions.entries:
-        if entry.exogenous and len(entry.action) > LONGEST_NAME:
-            message = f"`{entry.action[:20]}…` is too long for a name on the brick, which has {LONGEST_NAME} characters"
-            findings.error(Code.NQC_NAME, message, entry.span)
-        if not isinstance(entry.behaviour, (ByCall, ByStart)):
-            continue
-        name = entry.behaviour.function if isinstance(entry.behaviour, ByCall) else entry.behaviour.task
-        if (reason := complaint(name)) is not None:
-            findings.error(
-                Code.NQC_NAME,
-                f"`{name}` {reason}",
-                entry.behaviour.span,
-                help=f"name the behaviour otherwise: `by call do_{name}`" if name.isidentifier() else None,
-            )
-        other = first.setdefault(name, entry)
-        if type(other.behaviour) is not type(entry.behaviour) or len(other.args) != len(entry.args):
-            _report_mixed(name, entry, other, findings)
-
-
-def _report_mixed(name: str, entry: Entry, other: Entry, findings: Findings) -> None:
-    assert isinstance(entry.behaviour, (ByCall, ByStart)) and isinstance(other.behaviour, (ByCall, ByStart))
-    if type(other.behaviour) is not type(entry.behaviour):
-        problem = f"`{name}` is called for one action and started for another"
-    else:
-        problem = (
-            f"`{name}` has {len(entry.args)} arguments for `{entry.action}` but {len(other.args)} for `{other.action}`"
-        )
-    findings.error(
-        Code.NQC_BEHAVIOUR, problem, entry.behaviour.span, labels=(Label(other.behaviour.span, "the other use"),)
-    )
-
-
-def _check_file(actions: ActionMap, findings: Findings) -> None:
-    """Look into the brick's NQC file, if there is one: are the behaviours there of the right form?"""
-    path = user_file(actions.device)
-    try:
-        nqc = None if path is None else scan_file(path)
-    except UserError as error:
-        for diagnostic in error.diagnostics:
-            findings.error(diagnostic.code, diagnostic.message, actions.device.span)
-        return
-    if nqc is not None:
-        check_forms(actions, nqc, findings)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from golc.checks.obligations import Obligations, example
+from golc.checks.obligations import Obligations
 from golc.checks.pairs import pairs
 from golc.diagnostics import Code, Label
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Undecided, Witness
@@ -30,7 +30,7 @@ def check_effects(obligations: Obligations) -> None:
 def possible(action: Action) -> tuple[Step, ...]:
     """The action's preconditions, asked of the first variables."""
     env = tuple(range(len(action.parameters)))
-    return tuple([Asked(condition, env) for condition in action.preconditions])
+    return tuple([Asked(condition, env, known=not action.exogenous) for condition in action.preconditions])
 
 
 def _is_ever_possible(action: Action, obligations: Obligations) -> bool:
@@ -46,7 +46,7 @@ def _is_ever_possible(action: Action, obligations: Obligations) -> bool:
     what = f"whether `{action.name}` is ever possible"
     if obligations.is_impossible(Question(action.parameters, steps), what, span):
         message = f"`{action.name}` can never be possible"
-        obligations.warning(Code.NEVER_POSSIBLE, message, span, "false in every situation")
+        obligations.warning(Code.NEVER_POSSIBLE, message, span, f"false {obligations.everywhere}")
         obligations.never_possible.add(action.name)
         return False
     return True
@@ -68,7 +68,7 @@ def _report(action: Action, witness: Witness, obligations: Obligations) -> None:
     assert witness.error is not None
     found = witness.error.diagnostic
     message = f"`{action.name}` can go wrong: {found.message}"
-    obligations.error(Code.EFFECT_FAILS, message, found.span, found.marker, example(action, witness))
+    obligations.error(Code.EFFECT_FAILS, message, found.span, found.marker, action, witness, found.labels)
 
 
 def _check_conflicts(action: Action, obligations: Obligations) -> None:
@@ -100,7 +100,7 @@ def _check_conflict(action: Action, first: Effect, second: Effect, obligations: 
         return
     message = f"`{action.name}` may give `{first.fluent}` two values at once"
     labels = (Label(first.span, "and this one"),) if first is not second else ()
-    obligations.error(Code.EFFECT_CONFLICT, message, second.span, "this effect", example(action, witness), labels)
+    obligations.error(Code.EFFECT_CONFLICT, message, second.span, "this effect", action, witness, labels)
 
 
 def _parameters(binders: tuple[Binder, ...]) -> tuple[Parameter, ...]:
@@ -138,4 +138,4 @@ def _check_invariant(action: Action, name: str, obligations: Obligations) -> Non
     if witness is not None:
         message = f"`{action.name}` may break invariant `{name}`"
         labels = (Label(invariant.body.span, "false afterwards"),)
-        obligations.error(Code.INVARIANT_NOT_KEPT, message, action.span, "breaks it", example(action, witness), labels)
+        obligations.error(Code.INVARIANT_NOT_KEPT, message, action.span, "breaks it", action, witness, labels)

@@ -14,6 +14,7 @@ from golc.checks.connected import Connected
 from golc.checks.obligations import Obligations
 from golc.checks.performed import Performed
 from golc.diagnostics import Code, Label, Span
+from golc.proofs.among import Among
 from golc.proofs.questions import Asked, Question, Step
 from golc.theory import statements as st
 from golc.theory.reading import fluents_read
@@ -75,7 +76,7 @@ class Flow:
             for fluent in touched:
                 self._touching.setdefault(fluent, set()).add(name)
         self._performed = Performed(theory.procedures)
-        self._connected = Connected(theory)
+        self._connected = Connected(theory, some=isinstance(obligations.prover, Among))
         self._exogenous = frozenset(action.name for action in theory.actions.values() if action.exogenous)
 
     def check(self) -> None:
@@ -200,7 +201,7 @@ class Flow:
         known = self._connected.known(place.known, (fires,))
         what = "whether this interrupt can ever fire"
         if not isinstance(condition, Literal) and self._never(place, (*known, fires), what, condition.span):
-            message = "this interrupt can never fire: its condition is false in every situation"
+            message = f"this interrupt can never fire: its condition is false {self._obligations.everywhere}"
             self._obligations.warning(Code.NEVER_FIRES, message, condition.span, "never true")
 
     def _constant(self, condition: Term, place: Place, what: str, only: bool | None = None, true: bool = True) -> None:

@@ -15,6 +15,7 @@ from golc.checks.beginning import Beginning
 from golc.diagnostics import ProgramError
 from golc.situation.layout import World
 from golc.situation.worlds import Readable, TooManyCasesError, survey
+from golc.theory.errors import NotExecutedError
 from golc.theory.fitting import size
 from golc.theory.reading import fluents_read, reached
 from golc.theory.terms import Choice, Comprehension, Epistemic, Literal, Quantified, Term, Variable, subterms
@@ -47,7 +48,7 @@ def _told(theory: BasicActionTheory) -> frozenset[str]:
     effects = [effect for action in actions for effect in action.effects]
     told = _read(theory, asked) | {effect.fluent for effect in effects if not _says_nothing(effect)}
     links = [_read(theory, [constraint]) for constraint in theory.initially]
-    links += [_read(theory, _terms(effect)) | {effect.fluent} for effect in effects]
+    links += [_read(theory, effect.terms) | {effect.fluent} for effect in effects]
     while any(told & link and not link <= told for link in links):
         told = told.union(*[link for link in links if told & link])
     return told
@@ -62,12 +63,6 @@ def _says_nothing(effect: Effect) -> bool:
     """Whether an effect makes its fluent unknown altogether."""
     among = effect.value.among if isinstance(effect.value, Choice) else None
     return isinstance(among, Literal) and among.value == tuple(effect.value.type.values)
-
-
-def _terms(effect: Effect) -> list[Term]:
-    value = effect.value.among if isinstance(effect.value, Choice) else effect.value
-    within = [binder.within for binder in effect.binders]
-    return [term for term in (*within, effect.where, *effect.args, value, effect.condition) if term is not None]
 
 
 class _UnreadError(Exception):
@@ -134,6 +129,8 @@ class Hidden:
             except _UnreadError as unread:
                 name, _ = self._interpreter.layout.ground_fluents[unread.slot]
                 cases += [{**supposed, unread.slot: value} for value in _values(self.theory.fluents[name].type)]
+            except NotExecutedError:
+                raise UndecidedError from None
             except ProgramError:
                 continue  # what has no value here is another matter
 

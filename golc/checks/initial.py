@@ -66,6 +66,9 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
         reason, span = ("it is nested too deeply", fluent.initial.span)
         if isinstance(error, NoValueError):
             reason, span = error.reason, error.span
+            if error.finding is not None:
+                findings.once(error.finding)
+                return False
         findings.error(Code.INITIAL_VALUE, f"the initial value of `{what}` cannot be computed: {reason}", span, "here")
         return False
     if not values:

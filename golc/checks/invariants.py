@@ -5,6 +5,7 @@ from __future__ import annotations
 from golc.checks.beginning import Beginning
 from golc.diagnostics import Code, Findings, ProgramError, Span
 from golc.theory.closed import Closed, NoValueError
+from golc.theory.errors import ExternError
 from golc.theory.evaluate import Env
 from golc.theory.terms import Choice, FluentTerm, PossTerm
 from golc.theory.theory import BasicActionTheory, Definition
@@ -38,6 +39,8 @@ def _check_everywhere(beginning: Beginning, invariant: Definition, findings: Fin
                     Code.INVARIANT_AT_FIRST, message, invariant.body.span, "not in every world", help_, notes=notes
                 )
                 return
+    except ExternError as error:
+        findings.once(error.diagnostic)
     except ProgramError as error:
         _no_value(invariant, error.diagnostic.message, error.diagnostic.span, findings)
 
@@ -53,6 +56,9 @@ def _check(theory: BasicActionTheory, invariant: Definition, findings: Findings)
         reason, span = ("it is nested too deeply", invariant.body.span)
         if isinstance(error, NoValueError):
             reason, span = error.reason, error.span
+            if error.finding is not None:
+                findings.once(error.finding)
+                return
         _no_value(invariant, reason, span, findings)
         return
     if holds is not True:

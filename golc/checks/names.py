@@ -11,7 +11,7 @@ from golc.theory.fitting import meet
 from golc.theory.scope import Entry, Kind, Names
 from golc.theory.theory import BasicActionTheory, Binding, Device, Fixed, Parameter
 
-DECLARED = (Kind.CONSTANT, Kind.TYPE, Kind.FLUENT, Kind.STATIC, Kind.DEFINITION)
+DECLARED = (Kind.CONSTANT, Kind.TYPE, Kind.FLUENT, Kind.STATIC, Kind.EXTERN, Kind.DEFINITION)
 
 
 def check_names(theory: BasicActionTheory, file: tree.File, findings: Findings) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Span
+from golc.proofs.among import Among
 from golc.proofs.prover import Prover
 from golc.proofs.questions import Question, Undecided, Witness
 from golc.theory.theory import Action, BasicActionTheory
@@ -19,7 +20,7 @@ class Obligations:
     """
 
     theory: BasicActionTheory
-    prover: Prover
+    prover: Prover | Among
     findings: Findings
     asked: int = 0
     undecided: int = 0
@@ -30,7 +31,7 @@ class Obligations:
     def witness(self, question: Question, what: str, span: Span) -> Witness | None:
         """A situation in which what must not happen does; none if there is none, or if that is not decided, which is
         a finding. ``what`` completes "… is not decided"."""
-        answer = self._answer(question, what, span)
+        answer = self._answer(question, what, span, small=True)
         if isinstance(answer, Witness) and not answer.certain:
             self.not_decided(Undecided("it depends on what the agent knows then"), what, span)
             return None
@@ -38,11 +39,11 @@ class Obligations:
 
     def is_impossible(self, question: Question, what: str, span: Span) -> bool:
         """Whether there is provably no situation; that it is not decided is a finding, unless ``what`` is empty."""
-        return self._answer(question, what, span) is None
+        return self._answer(question, what, span, small=False) is None
 
-    def _answer(self, question: Question, what: str, span: Span) -> Witness | Undecided | None:
+    def _answer(self, question: Question, what: str, span: Span, small: bool) -> Witness | Undecided | None:
         self.asked += 1
-        answer = self.prover.answer(question)
+        answer = self.prover.answer(question, small)
         if isinstance(answer, Undecided) and what:
             self.not_decided(answer, what, span)
         return answer
@@ -55,26 +56,47 @@ class Obligations:
         self.findings.add(note)
 
     def error(
-        self, code: Code, message: str, span: Span, marker: str, note: str, labels: tuple[Label, ...] = ()
+        self,
+        code: Code,
+        message: str,
+        span: Span,
+        marker: str,
+        action: Action,
+        witness: Witness,
+        labels: tuple[Label, ...] = (),
     ) -> None:
-        """Report what a witness shows; the same mistake, found on several ways, once."""
+        """Report what a witness shows of an action; the same mistake, found on several ways, once."""
         if self._is_new(code, span):
-            self.findings.error(code, message, span, marker, None, labels, (note,))
+            self.findings.error(code, message, span, marker, None, labels, self._example(action, witness))
 
     def warning(self, code: Code, message: str, span: Span, marker: str, labels: tuple[Label, ...] = ()) -> None:
         """Report what is true in no situation, or in all; once for each place."""
         if self._is_new(code, span):
-            self.findings.warning(code, message, span, marker, None, labels)
+            self.findings.warning(code, message, span, marker, None, labels, self._where())
+
+    @property
+    def everywhere(self) -> str:
+        """In which situations something is so that is so in all."""
+        return "in every state that can be reached" if self._where() else "in every situation"
+
+    def _where(self) -> tuple[str, ...]:
+        scope = self.prover.scope if isinstance(self.prover, Among) else None
+        return (str(scope),) if scope is not None and scope.whole else ()
+
+    def _example(self, action: Action, witness: Witness) -> tuple[str, ...]:
+        """A witness in words: the situation, and the action with its arguments; how the situation is reached."""
+        args = witness.variables[: len(action.parameters)]
+        verb = "happens" if action.exogenous else "is done"
+        shown = f"for example when {witness} and `{show_call(action.name, args)}` {verb}"
+        if not isinstance(self.prover, Among):
+            return (shown,)
+        if witness.way is None:
+            return shown, "whether this situation can be reached is not known"
+        steps = ", ".join(witness.way)
+        return shown, f"this is reached by {steps}" if steps else "this is so at first"
 
     def _is_new(self, code: Code, span: Span) -> bool:
         key = (code, span.start, span.end)
         new = key not in self._told
         self._told.add(key)
         return new
-
-
-def example(action: Action, witness: Witness) -> str:
-    """A witness in words: the situation, and the action with its arguments."""
-    args = witness.variables[: len(action.parameters)]
-    verb = "happens" if action.exogenous else "is done"
-    return f"for example when {witness} and `{show_call(action.name, args)}` {verb}"

@@ -65,6 +65,8 @@ class _Walk:
             case tree.Action(name=name) | tree.Exog(name=name):
                 self.push(node.clauses, self.parameters[name.text])
                 self.push([parameter.type for parameter in node.parameters], {})
+            case tree.Extern(parameters=parameters, type=type_):
+                self.push([part.type for part in parameters] + ([] if type_ is None else [type_]), {})
             case tree.Proc() | tree.Define() | tree.Static() | tree.Fluent():
                 inner = self.bind({}, [parameter.name for parameter in node.parameters], node)
                 self.push([parameter.type for parameter in node.parameters], {})

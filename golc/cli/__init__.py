@@ -21,6 +21,7 @@ COMMANDS = {
     "plan": "golc.cli.plan",
     "test": "golc.cli.test",
     "fmt": "golc.cli.fmt",
+    "convert": "golc.cli.convert",
     "explain": "golc.cli.explain",
     "gen-nqc": "golc.cli.gen_nqc",
     "run": "golc.cli.run",

@@ -2,20 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
 
 import click
 
 from golc.cli.common import Console, console_options, constants_option
-from golc.diagnostics import counted
-
-if TYPE_CHECKING:
-    from golc.diagnostics import Diagnostic
-    from golc.theory.theory import BasicActionTheory
-
-LINES = ("text", "github")
-"""The formats that need not wait for the last file."""
 
 
 def _starts(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:
@@ -38,12 +29,16 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 )
 @click.option("--strict", is_flag=True, help="Warnings count as errors do.")
 @click.option("--no-proofs", is_flag=True, help="Leave out what takes all situations into account.")
+@click.option("--reachable", is_flag=True, help="Show only what can happen in states that can be reached.")
+@click.option("--trust", is_flag=True, help="Execute the Python code that the files name, where a value depends on it.")
 @click.option(
     "--select", multiple=True, metavar="CODES", callback=_starts, help="Only findings whose codes begin so: GL0,GL041."
 )
 @click.option(
     "--ignore", multiple=True, metavar="CODES", callback=_starts, help="No findings whose codes begin so: GL027."
 )
+@click.option("--fix", "fixing", is_flag=True, help="Put right what is safe to put right, and write the files.")
+@click.option("--diff", is_flag=True, help="Change nothing: show what --fix would change.")
 @constants_option
 @console_options
 def command(
@@ -51,8 +46,12 @@ def command(
     form: str,
     strict: bool,
     no_proofs: bool,
+    reachable: bool,
+    trust: bool,
     select: tuple[str, ...],
     ignore: tuple[str, ...],
+    fixing: bool,
+    diff: bool,
     constants: Mapping[str, str],
     console: Console,
 ) -> int:
@@ -63,67 +62,14 @@ def command(
     \b
     golc check examples/delivery/delivery.gl
     golc check --strict -D floors=12 elevator.gl
+    golc check --fix my.gl
     """
-    from golc.diagnostics import Severity
-    from golc.loading import examine
-    from golc.reporting.ignores import heed
+    from golc.cli.checking import Checking
     from golc.reporting.selection import Selection
 
+    if diff and form != "text":
+        raise click.UsageError("--diff shows a patch, and has no other --format.")
     selection = Selection(select, ignore)
-    findings: list[Diagnostic] = []
-    asked = undecided = 0
-    for file in files:
-        examined = examine(file, constants, proofs=not no_proofs)
-        found = [finding for finding in heed(examined, not no_proofs) if selection.wants(finding.code)]
-        findings.extend(found)
-        asked += examined.asked
-        undecided += examined.undecided
-        if form in LINES:
-            _write(console, found, form)
-        if console.verbosity > 0:
-            console.err(f"{file}: {_contents(examined.theory)}")
-    errors = sum(finding.severity is Severity.ERROR for finding in findings)
-    warnings = sum(finding.severity is Severity.WARNING for finding in findings)
-    if form not in LINES:
-        counts = {"errors": errors, "warnings": warnings, "questions": asked, "undecided": undecided}
-        _write_whole(console, findings, counts, form)
-    console.note(_summary(len(files), errors, warnings, undecided))
-    return int(errors > 0 or (strict and warnings > 0))
-
-
-def _write(console: Console, findings: Iterable[Diagnostic], form: str) -> None:
-    import sys
-
-    from golc.rendering import render
-    from golc.reporting.github import annotation
-
-    for finding in findings:
-        console.out(annotation(finding) if form == "github" else render(finding, console.colored(sys.stdout)) + "\n")
-
-
-def _write_whole(console: Console, findings: Iterable[Diagnostic], counts: Mapping[str, int], form: str) -> None:
-    import json
-
-    from golc.rendering import to_json
-    from golc.reporting import sarif
-
-    json_ = {"findings": [to_json(finding) for finding in findings], **counts}
-    console.out(json.dumps(sarif.log(findings, counts) if form == "sarif" else json_, indent=2))
-
-
-def _summary(files: int, errors: int, warnings: int, undecided: int) -> str:
-    found = [counted(number, what) for number, what in ((errors, "error"), (warnings, "warning")) if number]
-    open_ = f"; {counted(undecided, 'question')} not decided" if undecided else ""
-    return f"checked {counted(files, 'file')}: {', '.join(found) or 'nothing found'}{open_}"
-
-
-def _contents(theory: BasicActionTheory | None) -> str:
-    if theory is None:
-        return "not a theory"
-    parts = (
-        (theory.fluents, "fluent"),
-        (theory.actions, "action"),
-        (theory.procedures, "procedure"),
-        (theory.devices, "device"),
-    )
-    return f"domain {theory.name} with " + ", ".join(counted(len(part), what) for part, what in parts)
+    return Checking(
+        files, form, strict, not no_proofs, reachable, trust, selection, fixing, diff, constants, console
+    ).run()

@@ -8,6 +8,7 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from io import StringIO
 from pathlib import Path
 from typing import Any, TextIO, TypeVar
 
@@ -74,7 +75,9 @@ def console_options(command: F) -> F:
         return Console(color, -1 if quiet else verbose)
 
     def wrapper(*args: Any, color: str, quiet: bool, verbose: int, **kwargs: Any) -> Any:
-        return command(*args, console=build(color, quiet, verbose), **kwargs)
+        console = build(color, quiet, verbose)
+        with _executing_said(console):
+            return command(*args, console=console, **kwargs)
 
     wrapper.__name__ = command.__name__
     wrapper.__doc__ = command.__doc__
@@ -84,6 +87,30 @@ def console_options(command: F) -> F:
     )(wrapper)
     wrapped = click.option("-v", "--verbose", count=True, help="Say more.")(wrapped)
     return click.option("-q", "--quiet", is_flag=True, help="Say only what went wrong.")(wrapped)  # type: ignore[return-value]
+
+
+@contextlib.contextmanager
+def _executing_said(console: Console) -> Iterator[None]:
+    """Say of each Python file once that it is executed, before it is."""
+    import logging
+
+    said: set[str] = set()
+
+    def heard(record: logging.LogRecord) -> bool:
+        if (text := record.getMessage()) not in said:
+            said.add(text)
+            console.note(text)
+        return False
+
+    logger = logging.getLogger("golc.python")
+    level = logger.level
+    logger.setLevel(logging.INFO)
+    logger.addFilter(heard)
+    try:
+        yield
+    finally:
+        logger.removeFilter(heard)
+        logger.setLevel(level)
 
 
 constants_option = click.option(
@@ -107,16 +134,25 @@ def address(context: click.Context, parameter: click.Parameter, value: str | Non
     return host.strip("[]"), int(port)
 
 
+def patch(name: str, before: str, after: str, how: str) -> Iterator[str]:
+    """The lines of a patch that makes one text of a file another one; ``how`` tells the second one's name."""
+    from difflib import unified_diff
+
+    old, new = (list(StringIO(text, newline="\n")) for text in (before, after))
+    for line in unified_diff(old, new, name, f"{name} ({how})"):
+        yield line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
+
+
 @contextlib.contextmanager
 def completed(path: Path) -> Iterator[TextIO]:
     """A stream to a file that takes its place, with its permissions, at the end; a pipe or a device is written to and
     never replaced."""
     if path.exists() and not path.is_file():
-        with path.open("w", encoding="utf-8") as stream:
+        with path.open("w", encoding="utf-8", newline="") as stream:
             yield stream
         return
     partial = path.with_name(f".golc-{os.getpid()}.part")
-    with partial.open("x", encoding="utf-8") as stream:
+    with partial.open("x", encoding="utf-8", newline="") as stream:
         try:
             yield stream
             stream.flush()

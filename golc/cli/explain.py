@@ -37,13 +37,10 @@ def command(console: Console, about: tuple[str, ...], form: str, constants: Mapp
     if len(about) != 2:
         raise click.UsageError("a CODE, or a FILE and a NAME are needed: golc explain elevator.gl lit")
 
-    from golc.explain.pages import explain
-    from golc.explain.rendering import as_latex, as_text
-    from golc.loading import load
+    from golc.api.loading import load
 
     file, name = about
-    pages = explain(load(file, constants), name)
-    console.out(as_latex(pages) if form == "latex" else as_text(pages))
+    console.out(load(file, constants).explain(name, latex=form == "latex"))
     return 0
 
 

@@ -6,13 +6,12 @@ import os
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, completed, console_options
+from golc.cli.common import Console, completed, console_options, patch
 from golc.diagnostics import counted
 
 if TYPE_CHECKING:
@@ -65,11 +64,7 @@ class _Result:
 
     def difference(self) -> Iterator[str]:
         """The lines of a patch."""
-        from difflib import unified_diff
-
-        before, after = (list(StringIO(text, newline="\n")) for text in (self.source.text, self.text))
-        for line in unified_diff(before, after, self.name, f"{self.name} (canonical)"):
-            yield line if line.endswith("\n") else f"{line}\n\\ No newline at end of file\n"
+        return patch(self.name, self.source.text, self.text, "canonical")
 
     def write(self, console: Console) -> bool:
         """Write the text if it is another one; whether that has gone well."""
@@ -97,6 +92,9 @@ def _laid_out(console: Console, file: str) -> Iterator[_Result]:
     findings = Findings()
     if Path(file).is_fifo() or Path(file).is_char_device():
         console.err(f"error: `{file}` is no file that could be written anew; `-` stands for standard input")
+        return
+    if Path(file).suffix == ".py":
+        console.err(f"error: `{file}` is Python: use a formatter of Python; `golc fmt` lays out `.gl` files")
         return
     try:
         source = read_stream(STDIN, sys.stdin.buffer) if file == "-" else read_source(file)

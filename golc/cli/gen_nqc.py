@@ -12,11 +12,10 @@ import click
 from golc.cli.common import Console, console_options, constants_option
 
 if TYPE_CHECKING:
-    from golc.diagnostics import Findings
     from golc.nqc.actionmap import Entry
+    from golc.nqc.build import BrickProgram
     from golc.nqc.generate import Generated
-    from golc.nqc.toolchain import Compiled, Target, Usage
-    from golc.theory.theory import BasicActionTheory, Device
+    from golc.nqc.toolchain import Usage
 
 
 @click.command(name="gen-nqc", short_help="Generate the NQC program of a brick.")
@@ -60,76 +59,37 @@ def command(
     golc gen-nqc examples/delivery/delivery.gl --compile
     golc gen-nqc robot.gl --target rcx --download --port /dev/ttyS0 --slot 3
     """
-    from golc.loading import load
-    from golc.nqc.toolchain import Target
+    from golc.api.loading import load
 
     if download and port is None:
         raise click.UsageError("--download needs --port")
     if not download and (port is not None or slot is not None):
         raise click.UsageError("--port and --slot belong to --download")
     theory = load(file, constants)
-    devices = _bricks(theory, name)
-    if download and len(devices) > 1:
-        names = ", ".join(device.name for device in devices)
-        raise click.UsageError(f"--download sends to one brick: choose with --device one of {names}")
-    target = next(target for target in Target if target.option == option)
-    folder = Path(output) if output is not None else Path(file).parent / "build"
-    for device in devices:
-        generated = _generate(console, theory, device, folder, target, debug_tones)
+    names = [device.name for device in theory.devices if device.kind == "rcx" and name in (None, device.name)]
+    if download and len(names) > 1:
+        raise click.UsageError(f"--download sends to one brick: choose with --device one of {', '.join(names)}")
+    try:
+        programs = theory.gen_nqc(output, device=name, target=option, tones=debug_tones)
+    except ValueError as error:
+        raise click.BadParameter(str(error), param_hint="--device") from None
+    for program in programs:
+        _say_written(console, program.generated)
+        _warn(console, program)
         if compile_ or download:
-            compiled = _compile(console, generated, target)
-            if download and port is not None:
-                _download(console, compiled, target, port, slot)
+            _say_compiled(console, program)
+        if download and port is not None:
+            _download(console, program, port, slot)
     return 0
 
 
-def _bricks(theory: BasicActionTheory, name: str | None) -> list[Device]:
-    from golc.diagnostics import Code, Diagnostic, Span, UserError
-
-    bricks = [device for device in theory.devices if device.kind == "rcx"]
-    if name is not None:
-        known = ", ".join(device.name for device in bricks) or "none"
-        bricks = [device for device in bricks if device.name == name]
-        if not bricks:
-            raise click.BadParameter(f"there is no brick {name!r}; there is {known}", param_hint="--device")
-    if not bricks:
-        message = f"the domain `{theory.name}` has no device of kind `rcx`, for which a program could be generated"
-        help_ = 'add a block `device rcx "behaviours.nqc":` with the actions that the brick does'
-        raise UserError(Diagnostic(Code.NO_DEVICE, message, Span(theory.source, 0, 0), help=help_))
-    return bricks
-
-
-def _generate(
-    console: Console, theory: BasicActionTheory, device: Device, folder: Path, target: Target, tones: bool
-) -> Generated:
-    from golc.diagnostics import Findings
-    from golc.nqc.generate import generate
-    from golc.nqc.limits import check_limits
-    from golc.nqc.numbering import number_device
-
-    findings = Findings()
-    actions = number_device(theory, device, findings)
-    generated = None if findings.has_errors else generate(theory, actions, folder, findings, tones)
-    if generated is not None:
-        check_limits(generated.program, generated.user, generated.stubs, target, device.span, findings)
-        _say_written(console, generated)
-    _say_findings(console, findings)
-    assert generated is not None  # without findings of error severity it is there
-    return generated
-
-
-def _say_findings(console: Console, findings: Findings) -> None:
-    """Raise the errors; show the warnings."""
+def _warn(console: Console, program: BrickProgram) -> None:
     import sys
 
-    from golc.diagnostics import Severity, UserError
     from golc.rendering import render
 
-    for diagnostic in findings.diagnostics:
-        if diagnostic.severity is not Severity.ERROR:
-            console.err(render(diagnostic, console.colored(sys.stderr)) + "\n")
-    if findings.has_errors:
-        raise UserError(*[found for found in findings.diagnostics if found.severity is Severity.ERROR])
+    for diagnostic in program.warnings:
+        console.err(render(diagnostic, console.colored(sys.stderr)) + "\n")
 
 
 def _say_written(console: Console, generated: Generated) -> None:
@@ -198,15 +158,12 @@ def _behaviour(entry: Entry, hooks: bool) -> str:
     return f"{'starts' if isinstance(entry.behaviour, ByStart) else 'calls'} {behaviour_name(entry)}"
 
 
-def _compile(console: Console, generated: Generated, target: Target) -> Compiled:
-    from golc.nqc.toolchain import compile_program
-
-    compiled = compile_program(generated.path, generated.folders, target, generated.actions.device.span)
+def _say_compiled(console: Console, program: BrickProgram) -> None:
+    compiled, target = program.compiled, program.target
     if console.verbosity >= 0:
         console.out(f"\ncompiled {_short(compiled.path)} for firmware {target.firmware} ({target.option})\n")
         for line in compiled.usage:
             console.out(_usage(line))
-    return compiled
 
 
 def _usage(line: Usage) -> str:
@@ -216,10 +173,8 @@ def _usage(line: Usage) -> str:
     return f"  {line.what:<9} {line.used:>5} of {line.of:>4}  {bar}  {line.remark}".rstrip()
 
 
-def _download(console: Console, compiled: Compiled, target: Target, port: str, slot: int | None) -> None:
+def _download(console: Console, program: BrickProgram, port: str, slot: int | None) -> None:
     import sys
-
-    from golc.nqc.download import download
 
     progress = console.verbosity >= 0 and sys.stderr.isatty()
     console.note(f"\nsending it through {port}")
@@ -228,7 +183,7 @@ def _download(console: Console, compiled: Compiled, target: Target, port: str, s
         if progress:
             print(text, end="", file=sys.stderr, flush=True)
 
-    download(compiled.path, target, port, slot, heard)
+    program.download(port, slot, heard)
     console.out(f"the brick has the program{'' if slot is None else f' in slot {slot}'}; press its green Run button")
 
 

@@ -14,8 +14,6 @@ import click
 from golc.cli.common import Console, Quantity, completed, console_options, constants_option
 
 if TYPE_CHECKING:
-    from golc.planning.goals import GoalPlanning
-    from golc.planning.planner import Planning
     from golc.planning.plans import Outcome
     from golc.theory.types import Number
 
@@ -81,32 +79,30 @@ def command(
     golc plan examples/elevator/elevator.gl 'handle(25)' --all
     golc plan examples/elevator/elevator.gl --goal 'at = 5 and not lit(5)'
     """
+    from golc.api.loading import load
     from golc.cli.plan_writing import FORMATS
-    from golc.loading import GOAL, load
-    from golc.planning.goals import GoalPlanning
-    from golc.planning.limits import Limits
-    from golc.planning.planner import Planning, executable
-    from golc.theory.ground import read_procedure
     from golc.theory.statements import Strategy
 
     _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
     if goal is not None and (procedure is not None or cheapest or most is not None):
         raise click.UsageError("--goal asks for one shortest plan without a program: no PROC, --all or --cheapest")
-    limits = Limits(steps, nodes, seconds)
     strategy = Strategy.SHORTEST if shortest else Strategy.CHEAPEST if cheapest else Strategy.FIRST
-    planning: Planning | GoalPlanning
-    if goal is not None:
-        program, planning = goal, GoalPlanning(load(file, constants, goal), GOAL, limits, conformant)
-    else:
-        theory = load(file, constants)
-        call = read_procedure(theory, procedure or "control")
-        ready = executable(theory, call.action, call.args, conformant)
-        if most is not None and ready.ahead.senses:
-            raise click.UsageError(
-                "--all lists sequences of actions, but plans of this domain depend on what is sensed; "
-                "those that do not are listed with --conformant"
-            )
-        program, planning = str(call), Planning(ready, limits, most is not None, strategy)
+    try:
+        planning = load(file, constants).planning(
+            procedure,
+            goal=goal,
+            strategy=strategy,
+            every=most is not None,
+            conformant=conformant,
+            steps=steps,
+            nodes=nodes,
+            seconds=seconds,
+        )
+    except ValueError:
+        raise click.UsageError(
+            "--all lists sequences of actions, but plans of this domain depend on what is sensed; "
+            "those that do not are listed with --conformant"
+        ) from None
     cost = None
     with _writer(output) as write:
         listing = FORMATS[format_](write, most is not None)
@@ -115,7 +111,7 @@ def command(
             cost = plan.cost
         listing.close(planning.outcome)
     outcome = planning.outcome
-    _report(console, program, outcome, stats, cost)
+    _report(console, goal or procedure or "control", outcome, stats, cost)
     if outcome.plans and most is not None and outcome.plans >= most:
         return DONE
     return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
@@ -145,13 +141,8 @@ def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
 
 def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: Number | None) -> None:
     if not outcome.plans:
-        verdict = outcome.gave_up or f"proven: {outcome.proof}"
-        console.err(f"no plan for `{program}`: {verdict}")
-        way = ", ".join(outcome.stuck) or "no action at all"
-        if outcome.reasons:
-            console.err(f"the longest way was: {way}; there")
-        for reason in outcome.reasons:
-            console.err(f"  {reason}")
+        for line in outcome.failure(program):
+            console.err(line)
     elif outcome.gave_up:
         console.note(f"not all plans: {outcome.gave_up}")
     elif not stats:

@@ -7,14 +7,12 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import count, pairwise
 from typing import Any, TypeAlias
 
-from golc.planning.plans import Outcome, Plan, Step, answers
+from golc.planning.plans import INDENT, Outcome, Plan, Step, answers, lines_of
 from golc.program.labels import Act
 from golc.program.paths import bottom_up
 from golc.theory.types import Number, writable
 
 Write: TypeAlias = Callable[[str], None]
-
-INDENT = "    "
 
 
 class Listing:
@@ -45,17 +43,8 @@ class Text(Listing):
         if self._numbered:
             count = len(plan.actions)
             self._write(f"# plan {self._count}: {count} action{'' if count == 1 else 's'}")
-        pending: list[tuple[str, str, Plan]] = [("", "", plan)]
-        while pending:
-            heading, indent, part = pending.pop()
-            if heading:
-                self._write(heading)
-            for step in part.steps:
-                self._write(f"{indent}{step}")
-            for case in reversed(part.cases):
-                rest = "" if case.plan.steps else " nothing more"
-                heading = f"{indent}{answers(part.senses, case.results)}:{rest}"
-                pending.append((heading, indent + INDENT, case.plan))
+        for line in lines_of(plan):
+            self._write(line)
 
 
 class Json(Listing):

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Mapping
-from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 
 import click
 
@@ -13,7 +12,6 @@ from golc.cli.common import Console, Quantity, address, console_options, constan
 
 if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
-    from golc.runtime.loop.happenings import Remedy
     from golc.runtime.session import Voice
 
 
@@ -89,9 +87,9 @@ def command(
     listen: tuple[str, int] | None,
     journal: str | None,
     stop_when_idle: float | None,
-    on_impossible: str,
-    on_surprise: str,
-    on_failure: str | None,
+    on_impossible: Literal["apply", "drop", "stop"],
+    on_surprise: Literal["apply", "stop"],
+    on_failure: Literal["ask", "retry", "next", "stop"] | None,
     check_invariants: bool,
     step: bool,
     speed: float,
@@ -113,47 +111,37 @@ def command(
     """
     if port not in (None, "sim") and (world is not None or picture is not None):
         raise click.UsageError("--world and --picture are for a simulated brick, not for one at a port")
-    from golc.loading import load
-    from golc.runtime.loop.policy import OnImpossible, OnSurprise
-    from golc.runtime.session import Settings, run_online
-    from golc.theory.ground import read_procedure
+    import sys
 
-    theory = load(file, constants)
-    program = read_procedure(theory, procedure)
-    settings = Settings(
-        port=port,
-        events=None if events is None else Path(events),
-        listen=listen,
-        journal=None if journal is None else Path(journal),
-        stop_when_idle=stop_when_idle,
-        on_impossible=OnImpossible(on_impossible),
-        on_surprise=OnSurprise(on_surprise),
-        on_failure=_remedy(on_failure),
-        check_invariants=check_invariants,
-        step=step,
-        speed=speed,
-        seed=seed,
-        world=world,
-        picture=None if picture is None else Path(picture),
-        constants=constants,
-    )
+    from golc.api.loading import load
+    from golc.runtime.running import run
+
+    if on_failure is None:
+        on_failure = "ask" if sys.stdin is not None and sys.stdin.isatty() else "stop"
     try:
-        run_online(theory, program, settings, _voice(console))
+        run(
+            load(file, constants),
+            procedure,
+            port,
+            voice=_voice(console),
+            events=events,
+            listen=listen,
+            journal=journal,
+            stop_when_idle=stop_when_idle,
+            on_impossible=on_impossible,
+            on_surprise=on_surprise,
+            on_failure=on_failure,
+            check_invariants=check_invariants,
+            step=step,
+            speed=speed,
+            seed=seed,
+            world=world,
+            picture=picture,
+        )
     except FileExistsError as error:
         problem = f"the journal {error} exists already; name another file, or remove that one first"
         raise click.UsageError(problem) from None
     return 0
-
-
-def _remedy(on_failure: str | None) -> Remedy | None:
-    """What is done about every failure; none is to ask the operator, which is the default at a terminal."""
-    import sys
-
-    from golc.runtime.loop.happenings import Remedy
-
-    if on_failure is None:
-        on_failure = "ask" if sys.stdin is not None and sys.stdin.isatty() else "stop"
-    return None if on_failure == "ask" else Remedy(on_failure)
 
 
 def _voice(console: Console) -> Voice:
@@ -171,7 +159,7 @@ def _voice(console: Console) -> Voice:
         for diagnostic in diagnostics:
             console.err(render(diagnostic, color=console.colored(sys.stderr)))
 
-    return Voice(_write, complain, style, console.verbosity)
+    return Voice(_write, complain, style, console.verbosity, stdin=True)
 
 
 def _write(line: str) -> None:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import itertools
-import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -130,7 +129,6 @@ def _outages(
     help="Byte code: the same until the program has ended; after N op codes it is an error that it has not.",
 )
 @click.option("--listing", is_flag=True, help="Byte code: print the op codes as `nqc -L` does, and end.")
-@click.option("--until-stdin-closes", is_flag=True, hidden=True)
 @constants_option
 @console_options
 def command(
@@ -157,7 +155,6 @@ def command(
     picture: Path | None,
     steps: int | None,
     listing: bool,
-    until_stdin_closes: bool,
     constants: Mapping[str, str],
     console: Console,
 ) -> None:
@@ -214,8 +211,6 @@ def command(
         else:
             line, rest = _theory_line(file, constants, events, options, seed, told), 0.0
         stops = [stack.enter_context(stopped_by_signals())]
-        if until_stdin_closes:
-            stops.append(sys.stdin.fileno())
         port = stack.enter_context(contextlib.closing(_port(link, tcp)))
         console.out(port.description)
         if file is None:

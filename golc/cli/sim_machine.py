@@ -83,7 +83,7 @@ def _compile_domain(path: Path, target: Target, constants: Mapping[str, str]) ->
         names = ", ".join(actions.device.name for actions in (first, *others))
         raise refused(path, f"there is one brick in a world, and the domain has {names}")
     with tempfile.TemporaryDirectory() as folder:
-        return build(theory, first, target, Path(folder)).image
+        return build(theory, first.device, target, Path(folder)).image
 
 
 def settings(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, Any]:

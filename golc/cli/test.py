@@ -45,11 +45,10 @@ def command(console: Console, files: tuple[str, ...], junit: str | None, constan
 def _run(console: Console, file: str, constants: Mapping[str, str]) -> Iterator[Case]:
     import sys
 
+    from golc.api.loading import load
     from golc.diagnostics import UserError
-    from golc.loading import load
     from golc.rendering import render
     from golc.scenarios.junit import Case
-    from golc.scenarios.play import play
 
     try:
         theory = load(file, constants)
@@ -60,8 +59,8 @@ def _run(console: Console, file: str, constants: Mapping[str, str]) -> Iterator[
         console.out(f"FAILED  {file}: the file has errors")
         yield Case(file, "load", error.diagnostics[0].message, details, error=True)
         return
-    for scenario in theory.scenarios.values():
-        played = play(theory, scenario)
+    for played in theory.test():
+        scenario = played.scenario
         counts = f"{_count(played.actions, 'action')}, {_count(played.events, 'event')}"
         if played.failure is None:
             console.out(f"ok      {file}: {scenario.name} ({counts})")

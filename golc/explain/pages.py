@@ -14,6 +14,7 @@ from golc.explain.formulas import Formulas
 from golc.explain.page import Page, Section, head, implied, says
 from golc.explain.pieces import OR, SUM, type_text, value_text
 from golc.explain.programs import program
+from golc.theory.border import PythonFunction
 from golc.theory.recursion import deep_recursion
 from golc.theory.suggest import did_you_mean
 from golc.theory.theory import BasicActionTheory, Definition, Parameter, Procedure, Static
@@ -100,12 +101,16 @@ def _defined(formulas: Formulas, left: Document, definition: Definition) -> Docu
 
 
 def _static(theory: BasicActionTheory, static: Static) -> Page:
-    title = head("static", static.name, static.parameters)
+    kind = "extern" if isinstance(static.body, PythonFunction) else "static"
+    title = head(kind, static.name, static.parameters)
     formulas = _formulas(theory, static.parameters)
     if isinstance(static.body, Mapping):
         rows = tuple([_row(formulas, static, args, value) for args, value in static.body.items()])
         return Page(title, static.span, (Section("Definition", rows),))
     left = formulas.applied(signs.words(static.name), formulas.names)
+    if isinstance(static.body, PythonFunction):
+        of_type = join(left, signs.IN, type_text(static.type))
+        return Page(title, static.span, (Section(f"Function of {static.body.path}", (of_type,)),))
     definition = Definition(static.name, static.parameters, static.type, static.body)
     return Page(title, static.span, (Section("Definition", (_defined(formulas, left, definition),)),))
 

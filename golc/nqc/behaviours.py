@@ -9,7 +9,8 @@ from golc.diagnostics import Code, Findings, Label, Span
 from golc.nqc.actionmap import ActionMap, Entry
 from golc.nqc.source import Definition, Kind, NqcSource
 from golc.nqc.wire import Wire
-from golc.theory.suggest import did_you_mean
+from golc.nqc.words import complaint
+from golc.theory.suggest import closest, did_you_mean
 from golc.theory.theory import ByCall, ByStart, Device
 
 SPOKEN = {Kind.TASK: "a task", Kind.SUB: "a sub", Kind.FUNCTION: "a function"}
@@ -31,6 +32,11 @@ class Wanted:
     kind: type[ByCall] | type[ByStart]
     arguments: int
     entries: tuple[Entry, ...]
+
+    @property
+    def agreed(self) -> bool:
+        """Whether all bindings use it in the same way."""
+        return all(type(e.behaviour) is self.kind and len(e.args) == self.arguments for e in self.entries)
 
 
 def wanted(actions: ActionMap) -> list[Wanted]:
@@ -77,11 +83,41 @@ def check_behaviours(actions: ActionMap, nqc: NqcSource, taken: Set[str], findin
     _check_messages(actions.wire, nqc, actions.device, findings)
 
 
+def check_lacking(actions: ActionMap, nqc: NqcSource, findings: Findings) -> None:
+    """Warn of behaviours that no file brings."""
+    for behaviour in lacking(actions, nqc):
+        if complaint(behaviour.name) is not None:
+            continue  # it cannot be there, which has been said
+        entry = behaviour.entries[0]
+        assert isinstance(entry.behaviour, (ByCall, ByStart))
+        findings.warning(
+            Code.NQC_BEHAVIOUR,
+            f"`{behaviour.name}` is not in the NQC files of `{actions.device.name}`",
+            entry.behaviour.span,
+            "not defined",
+            help=did_you_mean(behaviour.name, _spare(actions, behaviour, nqc)) or f"write `{_head(behaviour)}` there",
+            notes=("until then, golc gen-nqc puts a stub in its place",),
+        )
+
+
+def _spare(actions: ActionMap, behaviour: Wanted, nqc: NqcSource) -> list[str]:
+    """The definitions of the right kind that no binding names."""
+    named = {other.name for other in wanted(actions)}
+    is_task = behaviour.kind is ByStart
+    return [d.name for d in nqc.definitions.values() if (d.kind is Kind.TASK) == is_task and d.name not in named]
+
+
+def _head(behaviour: Wanted) -> str:
+    if behaviour.kind is ByStart:
+        return f"task {behaviour.name}()"
+    return f"void {behaviour.name}({_parameters(behaviour.arguments)})"
+
+
 def check_forms(actions: ActionMap, nqc: NqcSource, findings: Findings) -> None:
     """Find behaviours that are tasks where a function is needed, and so on, or that take other arguments."""
     for behaviour in [] if has_hooks(nqc) else wanted(actions):
         definition = nqc.definitions.get(behaviour.name)
-        if definition is not None:
+        if definition is not None and behaviour.agreed:
             _check_form(behaviour, definition, findings)
 
 
@@ -105,7 +141,7 @@ def _check_form(behaviour: Wanted, definition: Definition, findings: Findings) -
             f"`{behaviour.name}` is a sub, which takes no arguments, but `{entry.action}` has {behaviour.arguments}",
             span,
             labels=labels,
-            help=f"make it a function: `void {behaviour.name}({_parameters(behaviour.arguments)})`",
+            help=f"make it a function: `{_head(behaviour)}`",
         )
     elif not is_task and definition.parameters != behaviour.arguments:
         findings.error(
@@ -113,7 +149,7 @@ def _check_form(behaviour: Wanted, definition: Definition, findings: Findings) -
             f"`{behaviour.name}` takes {_count(definition.parameters)}, but `{entry.action}` has {behaviour.arguments}",
             span,
             labels=labels,
-            help=f"write `void {behaviour.name}({_parameters(behaviour.arguments)})`, one `int` for each argument",
+            help=f"write `{_head(behaviour)}`, one `int` for each argument",
         )
 
 
@@ -157,22 +193,25 @@ def _check_messages(wire: Wire, nqc: NqcSource, device: Device, findings: Findin
 def check_reports(actions: ActionMap, counters: Mapping[str, Entry], nqc: NqcSource, findings: Findings) -> None:
     """Warn of events that no file reports, and find reports of what is no event."""
     told: set[str] = set()
+    meant = set()
+    for word in sorted(nqc.words):
+        if word.startswith("EXOG_") and word not in counters:
+            similar = closest(word, counters)
+            meant.add(similar)
+            findings.error(
+                Code.NQC_NAME,
+                f"`{word}` is no exogenous action of the device",
+                _place_of(word, nqc) or actions.device.span,
+                help=f"did you mean `{similar}`?" if similar else f"there are {', '.join(counters) or 'none'}",
+            )
     for name, entry in counters.items():
-        if name not in nqc.words and entry.action not in told:
+        if name not in nqc.words and name not in meant and entry.action not in told:
             told.add(entry.action)
             findings.warning(
                 Code.UNREPORTED,
                 f"nothing in the NQC files reports `{entry.action}`" + (f" as `{name}`" if entry.count > 1 else ""),
                 entry.span,
                 help=f"write `golc_report({name});` where it happens",
-            )
-    for word in sorted(nqc.words):
-        if word.startswith("EXOG_") and word not in counters:
-            findings.error(
-                Code.NQC_NAME,
-                f"`{word}` is no exogenous action of the device",
-                _place_of(word, nqc) or actions.device.span,
-                help=did_you_mean(word, counters) or f"there are {', '.join(counters) or 'none'}",
             )
 
 

@@ -8,9 +8,13 @@ import subprocess
 import time
 from collections.abc import Callable
 from pathlib import Path
+from typing import TypeAlias
 
 from golc.diagnostics import DeviceError
 from golc.nqc.toolchain import Target, find_nqc
+
+Heard: TypeAlias = Callable[[str], None]
+"""Gets the progress of nqc as text."""
 
 SECONDS = 300.0
 """Six thousand bytes take about a hundred seconds in the air."""
@@ -23,7 +27,7 @@ ADVICE = {
 """What nqc's exit codes mean, and what to do about them."""
 
 
-def download(image: Path, target: Target, port: str, slot: int | None, heard: Callable[[str], None]) -> None:
+def download(image: Path, target: Target, port: str, slot: int | None, heard: Heard) -> None:
     """Send a program to the brick, into a slot (1 to 5) or the one that is selected there.
 
     ``heard`` gets nqc's progress as it comes. Raises DeviceError if nqc is missing or the brick does not take it.
@@ -45,7 +49,7 @@ def download(image: Path, target: Target, port: str, slot: int | None, heard: Ca
         raise DeviceError(message.format(port=port, said=said.strip() or f"exit code {code}"), help=help_)
 
 
-def _listen(process: subprocess.Popen[bytes], heard: Callable[[str], None]) -> str:
+def _listen(process: subprocess.Popen[bytes], heard: Heard) -> str:
     """What nqc says until it ends: a dot for each block, without a line end. One that hangs is ended."""
     assert process.stderr is not None
     descriptor, deadline, said = process.stderr.fileno(), time.monotonic() + SECONDS, ""

@@ -10,13 +10,13 @@ from pathlib import Path
 
 from golc.diagnostics import Code, Findings, Source, Span
 from golc.nqc.actionmap import ActionMap
-from golc.nqc.behaviours import Wanted, check_behaviours, check_reports, check_timer, lacking
-from golc.nqc.busy import check_rests
+from golc.nqc.behaviours import Wanted, lacking
 from golc.nqc.dispatch import Names, facts
-from golc.nqc.files import Written, is_untouched, open_seal, remove, seal, write
-from golc.nqc.program import TIMER, Program, control, queue_of
+from golc.nqc.files import Written, open_seal, remove, seal, write
+from golc.nqc.program import Program, control
+from golc.nqc.review import review
 from golc.nqc.source import NqcSource
-from golc.nqc.userfiles import CONTROL, merge, scan_file, user_file
+from golc.nqc.userfiles import CONTROL, program_name, user_file, user_files
 from golc.theory.theory import BasicActionTheory
 
 
@@ -42,19 +42,17 @@ def generate(
     ``actions`` is a map for which ``number_device`` has found nothing wrong. Raises UserError where a file cannot be
     read or written.
     """
-    stem = f"{theory.name}-{actions.device.name}"
+    stem = program_name(theory.name, actions.device)
     own = user_file(actions.device)
-    scanned = None if own is None else scan_file(own)
-    edited, fresh = _stub_files(folder, stem)
-    found = [nqc for nqc in (scanned, *map(scan_file, edited)) if nqc is not None]
-    user = merge(found)
+    nqc = user_files(theory.name, actions.device, folder)
+    user, fresh = nqc.all, nqc.fresh
     program = Program(theory, actions, user, tones)
-    _check(program, actions, user, findings)
+    review(program, user, findings)
     if findings.has_errors:
         return None
     stubs = lacking(actions, user)
-    files = [] if own is None or scanned is None else [os.path.relpath(own, folder)]
-    files += [path.name for path in edited]
+    files = [] if own is None or nqc.own is None else [os.path.relpath(own, folder)]
+    files += [path.name for path in nqc.edited]
     texts = {}
     if stubs:
         files.append(fresh.name)
@@ -81,39 +79,6 @@ def _say_kept(written: tuple[Written, ...], findings: Findings) -> None:
                 Span(source, 0, len(first)),
                 help=f"what golc would have written is in `{file.path.name}`; to get it, remove your file",
             )
-
-
-def _stub_files(folder: Path, stem: str) -> tuple[list[Path], Path]:
-    """The files of stubs that somebody has edited, and the first name that is free for new ones."""
-    edited = []
-    number = 1
-    while not is_untouched(path := folder / f"{stem}-stubs{'' if number == 1 else number}.nqc"):
-        edited.append(path)
-        number += 1
-    return edited, path
-
-
-def _check(program: Program, actions: ActionMap, user: NqcSource, findings: Findings) -> None:
-    check_behaviours(actions, user, {*program.variables, *program.macros}, findings)
-    check_timer(user, TIMER, findings)
-    check_rests(user, findings)
-    if program.sampled:
-        findings.warning(
-            Code.NQC_SAMPLED,
-            "`exogAction` holds one event at a time: the first of two that come quickly may be lost",
-            actions.device.span,
-            help="report with `golc_report(EXOG_…);` instead, which loses none",
-        )
-    elif user.sources:
-        check_reports(actions, {counter.name: counter.entry for counter in program.counters}, user, findings)
-    queue = queue_of(actions)
-    if program.counters and not queue.depth:
-        findings.error(
-            Code.NUMBER_RANGE,
-            f"the numbers of the exogenous actions lie too far apart: {queue.first} to {queue.last}",
-            actions.device.span,
-            help="give them numbers that follow each other",
-        )
 
 
 def _json(theory: BasicActionTheory, actions: ActionMap) -> str:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import errno
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 from golc.diagnostics import Code, Diagnostic, Source, Span, UserError
+from golc.nqc.files import is_untouched
 from golc.nqc.source import EMPTY, Definition, NqcSource, scan
 from golc.theory.theory import Device
 
@@ -69,3 +71,34 @@ def merge(sources: Sequence[NqcSource]) -> NqcSource:
         frozenset().union(*(source.words for source in sources)),
         frozenset().union(*(source.includes for source in sources)),
     )
+
+
+@dataclass(frozen=True)
+class UserFiles:
+    """The NQC files of a brick: ``own`` is the device's, if it is there; ``edited`` are stubs that somebody has filled
+    in; ``fresh`` is the first name that is free for new stubs; ``all`` is what they define together."""
+
+    own: NqcSource | None
+    edited: tuple[Path, ...]
+    fresh: Path
+    all: NqcSource
+
+
+def program_name(domain: str, device: Device) -> str:
+    """How the generated files of a brick begin."""
+    return f"{domain}-{device.name}"
+
+
+def user_files(domain: str, device: Device, folder: Path) -> UserFiles:
+    """The files of a brick whose program goes into a folder. Raises UserError if one cannot be read."""
+    path = user_file(device)
+    own = None if path is None else scan_file(path)
+    edited: list[Path] = []
+    while not is_untouched(fresh := folder / f"{program_name(domain, device)}-stubs{_number(len(edited))}.nqc"):
+        edited.append(fresh)
+    found = [nqc for nqc in (own, *map(scan_file, edited)) if nqc is not None]
+    return UserFiles(own, tuple(edited), fresh, merge(found))
+
+
+def _number(before: int) -> str:
+    return str(before + 1) if before else ""

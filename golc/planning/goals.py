@@ -18,6 +18,7 @@ from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.statements import Strategy
+from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory
 
 MOST_REASONS = 10
@@ -44,17 +45,26 @@ class _Reached:
 
 
 class GoalPlanning:
-    """A search for the shortest plan that makes a definition true; iterate over it, then read its ``outcome``.
+    """A search for the shortest plan that makes a formula true; iterate over it, then read its ``outcome``.
 
     The first in the order of the ground actions among equally short ones. It may wait for what is expected, and it is a
-    conditional plan if actions sense what is not known, unless ``conformant``. Raises ``UserError`` for an action whose
-    instances cannot be listed, and while iterating ``ProgramError`` where the language says that something is an error.
+    conditional plan if actions sense what is not known, unless ``conformant``. ``start``: where it begins, by default
+    the initial state. Raises ``UserError`` for an action whose instances cannot be listed, and while iterating
+    ``ProgramError`` where the language says that something is an error.
     """
 
-    def __init__(self, theory: BasicActionTheory, goal: str, limits: Limits, conformant: bool = False) -> None:
+    def __init__(
+        self,
+        theory: BasicActionTheory,
+        goal: Term,
+        limits: Limits,
+        conformant: bool = False,
+        start: State | None = None,
+    ) -> None:
         self.outcome = Outcome(proof="no sequence of actions makes it true")
         self._dynamics = Dynamics(theory)
-        self._goal = theory.definitions[goal].body
+        self._goal = goal
+        self._start = start
         self._budget = Budget(limits)
         self._deepest: tuple[tuple[str, ...], State] | None = None
         self._actions = GroundActions(self._dynamics, conformant)
@@ -79,7 +89,7 @@ class GoalPlanning:
             yield found
 
     def _search(self) -> Plan | None:
-        initial = self._dynamics.initial()
+        initial = self._dynamics.initial() if self._start is None else self._start
         if self._holds(initial, ()):
             return Plan(())
         if self._actions.branch or self._actions.waits:

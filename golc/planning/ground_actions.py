@@ -15,11 +15,8 @@ from golc.program.labels import Act, Expect
 from golc.program.prunes import Prunes
 from golc.situation.dynamics import Dynamics, Outcome
 from golc.situation.worlds import State
-from golc.theory.fitting import size
+from golc.theory.fitting import MOST_INSTANCES, combinations
 from golc.theory.theory import Action
-
-MOST_INSTANCES = 100_000
-"""How many ground actions of one action are tried in each state."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +97,6 @@ def _check_finite(actions: list[Action]) -> None:
     """Every instance of every action can be tried; raises ``UserError`` otherwise."""
     findings = []
     for action in actions:
-        instances = 1
         for parameter in action.parameters:
             if not parameter.type.finite:
                 message = f"`{action.name}` cannot be used to plan for a goal: `{parameter.name}` has no list of values"
@@ -113,10 +109,7 @@ def _check_finite(actions: list[Action]) -> None:
                         help="give it an interval or an enumeration as its type, or plan with a procedure",
                     )
                 )
-                instances = 0
-            else:
-                instances *= size(parameter.type)
-        if instances > MOST_INSTANCES:
+        if (combinations([parameter.type for parameter in action.parameters]) or 0) > MOST_INSTANCES:
             message = f"`{action.name}` has more than {MOST_INSTANCES} instances, too many to plan for a goal"
             findings.append(Diagnostic(Code.BAD_TYPE, message, action.span))
     if findings:

@@ -20,7 +20,7 @@ from golc.program.program import Program
 from golc.program.step import Machine
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
-from golc.theory.recursion import deep_recursion
+from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value, show
@@ -104,19 +104,29 @@ def _find(
             return cheapest.find(machine, node, state, budget, dead_end)
 
 
+def _next(plans: Iterator[Plan]) -> Plan | None:
+    with deep_recursion(EVALUATION):
+        return next(plans, None)
+
+
 def _steps(count: int | None) -> str:
     return f"{show(count)} step{'' if count == 1 else 's'}"
 
 
 class Planning:
-    """A search for the plans of a program from the initial state; iterate over it, then read its ``outcome``.
+    """A search for the plans of a program; iterate over it, then read its ``outcome``.
 
     One plan, by the ``strategy``, or all of them in program order; ``ValueError`` for all plans of a domain whose plans
-    depend on what is sensed, unless they are conformant.
+    depend on what is sensed, unless they are conformant. ``start``: where they begin, by default the initial state.
     """
 
     def __init__(
-        self, executable: Executable, limits: Limits, all_plans: bool = False, strategy: Strategy = Strategy.FIRST
+        self,
+        executable: Executable,
+        limits: Limits,
+        all_plans: bool = False,
+        strategy: Strategy = Strategy.FIRST,
+        start: State | None = None,
     ) -> None:
         if all_plans and executable.ahead.senses:
             raise ValueError("plans that branch by what is sensed are not listed")
@@ -125,12 +135,14 @@ class Planning:
         self._budget = Budget(limits)
         self._all = all_plans
         self._strategy = strategy
+        self._start = start
         self._dead_end = DeadEnd()
 
     def __iter__(self) -> Iterator[Plan]:
         outcome = self.outcome
         try:
-            for plan in self._plans():
+            plans = self._plans()
+            while (plan := _next(plans)) is not None:
                 outcome.plans += 1
                 self._count()
                 yield plan
@@ -144,7 +156,7 @@ class Planning:
 
     def _plans(self) -> Iterator[Plan]:
         machine, node = self._executable.ahead, self._executable.node
-        state = self._executable.dynamics.initial()
+        state = self._executable.dynamics.initial() if self._start is None else self._start
         if self._all:
             yield from map(Plan, enumerate_plans(machine, node, state, self._budget, self._dead_end))
         elif machine.final(node, state):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from typing import TypeAlias
 
+from golc.diagnostics import counted
 from golc.program.blame import Blocked
 from golc.program.labels import Act, Expect
 from golc.program.paths import Path, bottom_up
@@ -14,11 +16,13 @@ from golc.theory.order import spelt
 from golc.theory.terms import FluentTerm
 from golc.theory.types import Number, Unknown, Value, show, show_call
 
+INDENT = "    "
+
 Step: TypeAlias = Act | Expect
 """A step of a plan: something to be done, or something that is expected to happen."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Plan:
     """What executes a program to its end: steps, the last of which may sense what decides how to go on.
 
@@ -35,6 +39,18 @@ class Plan:
     def actions(self) -> tuple[Act, ...]:
         """The steps that are actions."""
         return tuple([step for step in self.steps if isinstance(step, Act)])
+
+    def __str__(self) -> str:
+        return "\n".join(lines_of(self)) or "nothing is to be done"
+
+    def _repr_html_(self) -> str:
+        from golc.notebook import plan_html
+
+        return plan_html(self)
+
+    def __repr__(self) -> str:
+        steps = [*map(str, self.steps), *([counted(len(self.cases), "case")] if self.cases else [])]
+        return f"<Plan: {', '.join(steps) or 'nothing is to be done'}>"
 
     @property
     def ways(self) -> list[Plan]:
@@ -88,6 +104,21 @@ def told(dynamics: Dynamics, act: Act, results: tuple[Value, ...]) -> tuple[Valu
     return tuple([spelt(result, term.type) for result, term in zip(results, senses, strict=True)])
 
 
+def lines_of(plan: Plan) -> Iterator[str]:
+    """A plan as text, one step a line; below a sensing action stands each result that it may have, with the rest of the
+    plan indented. No recursion, for plans are deep."""
+    pending: list[tuple[str, str, Plan]] = [("", "", plan)]
+    while pending:
+        heading, indent, part = pending.pop()
+        if heading:
+            yield heading
+        yield from (f"{indent}{step}" for step in part.steps)
+        for case in reversed(part.cases):
+            rest = "" if case.plan.steps else " nothing more"
+            heading = f"{indent}{answers(part.senses, case.results)}:{rest}"
+            pending.append((heading, indent + INDENT, case.plan))
+
+
 def answers(names: tuple[str, ...], results: tuple[Value, ...]) -> str:
     """What was sensed, with the results."""
     return ", ".join(f"{name} = {show(value)}" for name, value in zip(names, results, strict=True))
@@ -108,3 +139,10 @@ class Outcome:
     expanded: int = 0
     seconds: float = 0.0
     proof: str = "it cannot be executed to its end"
+
+    def failure(self, program: str) -> list[str]:
+        """Why there is no plan for something, in lines of text."""
+        lines = [f"no plan for `{program}`: {self.gave_up or f'proven: {self.proof}'}"]
+        if self.reasons:
+            lines.append(f"the longest way was: {', '.join(self.stuck) or 'no action at all'}; there")
+        return lines + [f"  {reason}" for reason in self.reasons]

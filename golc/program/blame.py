@@ -92,28 +92,37 @@ def valued(branch: Blocked) -> str:
     return branch.text + (f" ({values})" if values else "")
 
 
-def false_parts(dynamics: Dynamics, state: State, formula: Term) -> list[Blocked]:
-    """Each conjunct of a closed formula that is false in a state, with the values of what it speaks of.
+def false_parts(dynamics: Dynamics, state: State, formula: Term, env: tuple[Value, ...] = ()) -> list[Blocked]:
+    """Each conjunct of a formula that is not known to be true in a state, with the values of what it speaks of.
 
-    Behind a false conjunct others may have no value (``x != none and x < 3``); those are left out.
+    ``env``: the values of its variables. Behind a false conjunct others may have no value (``x != none and x < 3``);
+    those are left out.
     """
     found = []
     with deep_recursion(EVALUATION):
         for part in _conjuncts(formula):
             try:
-                holds = dynamics.knowing.verdict(part, state, ())
+                holds = dynamics.knowing.verdict(part, state, env)
             except ProgramError:
                 continue
             if not holds:
                 text = f"`{_text(part)}` {_is(dynamics, part, holds)}"
-                found.append(Blocked(part.span, text, _values_if_any(dynamics, part, state)))
+                found.append(Blocked(part.span, text, _values_if_any(dynamics, part, state, env)))
     return found
 
 
-def _values_if_any(dynamics: Dynamics, term: Term, state: State) -> tuple[tuple[str, Value], ...]:
+def obstacles(dynamics: Dynamics, state: State, action: str, args: tuple[Value, ...]) -> list[Blocked]:
+    """Each part of an action's precondition that is not known to be true in a state."""
+    preconditions = dynamics.theory.actions[action].preconditions
+    return [part for term in preconditions for part in false_parts(dynamics, state, term, args)]
+
+
+def _values_if_any(
+    dynamics: Dynamics, term: Term, state: State, env: tuple[Value, ...]
+) -> tuple[tuple[str, Value], ...]:
     """The values of what a term speaks of; none where a part that decides nothing has no value."""
     try:
-        return _values(dynamics, term, state, ())
+        return _values(dynamics, term, state, env)
     except ProgramError:
         return ()
 

@@ -8,14 +8,17 @@ tells apart, and a case says which fluents the answer depends on: all others may
 from __future__ import annotations
 
 import random
-from collections.abc import Callable, Iterator, Sequence
-from typing import TypeVar
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import TypeAlias, TypeVar
 
 from golc.proofs.domains import Domain, Some
 from golc.proofs.symbols import MOST_CONCRETE, NotDecidedError, Range, Symbol
 from golc.theory.types import Value
 
 T = TypeVar("T")
+C = TypeVar("C", bound="Case")
+Box: TypeAlias = Mapping[int, "Value | Range"]
+"""What each of some slots may be: one value, or the integers of a range."""
 
 MOST_READS = 500_000
 """How often one question may look at a slot: what uses a definition twice, which uses another one twice, takes long."""
@@ -28,7 +31,10 @@ class Case:
     """
 
     def __init__(
-        self, domains: Sequence[Domain], decisions: list[tuple[int, int]], chance: random.Random | None = None
+        self,
+        domains: Sequence[Domain] | Mapping[int, Domain],
+        decisions: list[tuple[int, int]],
+        chance: random.Random | None = None,
     ) -> None:
         self.cells: dict[int, Value] = {}
         self.whole = True
@@ -39,6 +45,8 @@ class Case:
         """How often it was guessed what the agent knows. One guess may be right; several need not go together."""
         self.reads = 0
         """How often a slot was looked at."""
+        self.open = False
+        """Whether something was decided that no slot holds."""
         self._domains = domains
         self._ranges: dict[int, Range] = {}
         self._next = 0
@@ -53,10 +61,15 @@ class Case:
         self._next += 1
         return self.decisions[self._next - 1][0]
 
+    def branch(self, ways: int) -> int:
+        """Decide something that no slot holds."""
+        self.open = True
+        return self.choose(ways)
+
     def guess(self) -> bool:
         """Decide something about what the agent knows."""
         self.guesses += 1
-        return self.choose(2) == 0
+        return self.branch(2) == 0
 
     def look(self) -> None:
         """Count a look at a slot."""
@@ -110,19 +123,24 @@ class Case:
         """A value for each slot that was read: of an integer the one nearest to 0."""
         return {slot: self.value(slot) for slot in self.cells}
 
+    def box(self) -> Box:
+        """What each slot that was read may be in this case."""
+        return {slot: self._ranges.get(slot, value) for slot, value in self.cells.items()}
+
     def value(self, slot: int) -> Value:
         """The value of a slot that was read."""
         return self._ranges[slot].nearest_to_zero() if slot in self._ranges else self.cells[slot]
 
 
-def explore(domains: Sequence[Domain], ask: Callable[[Case], T]) -> Iterator[tuple[Case, T]]:
-    """What ``ask`` answers in each case that it distinguishes; the last decision changes fastest.
+def explore(new: Callable[[list[tuple[int, int]]], C], ask: Callable[[C], T]) -> Iterator[tuple[C, T]]:
+    """What ``ask`` answers in each case that it distinguishes; the last decision changes fastest. ``new`` makes a case
+    of decisions.
 
     Raises ``NotDecidedError`` where a case is beyond enumeration and intervals.
     """
     decisions: list[tuple[int, int]] = []
     while True:
-        case = Case(domains, decisions)
+        case = new(decisions)
         answer = ask(case)
         yield case, answer
         decisions = list(case.decisions)

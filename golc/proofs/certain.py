@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import NamedTuple, TypeAlias
 
+from golc.theory.border import PythonFunction
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.operations import takes_none
 from golc.theory.terms import (
@@ -209,6 +210,8 @@ class Certainty:
         static = self.theory.statics[name]
         if isinstance(static.body, Mapping):
             return True
+        if isinstance(static.body, PythonFunction):
+            return False
         return self.is_of_type(static.body, static.type, self._variables(static.parameters), NO_FACTS)
 
     def _variables(self, parameters: tuple[Parameter, ...]) -> Env:

@@ -65,3 +65,14 @@ def _few(type_: Type) -> tuple[Value, ...]:
             return ("", "a", "b")
         case _:
             return (0, 1, 2, -1, *([Fraction(1, 2)] if "real" in type_.kinds else []))
+
+
+def any_of(domain: Domain) -> Value:
+    """Some value, for a variable that nothing depends on."""
+    match domain:
+        case Range() as range_:
+            return range_.nearest_to_zero()
+        case Some(values=values):
+            return values[0]
+        case values:
+            return values[0]

@@ -7,12 +7,14 @@ place where it is read.
 from __future__ import annotations
 
 import itertools
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from typing import Any, TypeAlias
 
 import z3
 
+from golc.diagnostics import ProgramError
 from golc.proofs.encoded import (
     NONE,
     NUMBER,
@@ -28,7 +30,9 @@ from golc.proofs.encoded import (
     selected,
     truth,
 )
-from golc.proofs.symbols import NotDecidedError
+from golc.proofs.symbols import NeedsPythonError, NotDecidedError
+from golc.theory.border import PythonFunction, extern_value
+from golc.theory.errors import NotExecutedError
 from golc.theory.fitting import size
 from golc.theory.terms import (
     Binder,
@@ -46,7 +50,7 @@ from golc.theory.terms import (
     Term,
     Variable,
 )
-from golc.theory.theory import BasicActionTheory, Parameter
+from golc.theory.theory import BasicActionTheory, Parameter, Static
 from golc.theory.types import BOOL, REAL, Interval, Optional, Type, Value
 from golc.theory.types import number as simplified
 
@@ -236,6 +240,8 @@ class Encoder:
                 found = self.literal(value) if found is None else selected(fits, self.literal(value), found)
             assert found is not None
             return _with(found, ok)
+        if isinstance(static.body, PythonFunction):
+            return self._extern(static, values, ok)
         if self._depth >= DEEPEST:
             raise NotDecidedError(f"the recursion of `{static.name}` is followed")
         self._depth += 1
@@ -244,6 +250,22 @@ class Encoder:
         finally:
             self._depth -= 1
         return _with(value, both(ok, self.within(value, static.type)))
+
+    def _extern(self, static: Static, args: Env, ok: Formula) -> Encoded:
+        """A function of Python, as a table."""
+        types = [parameter.type for parameter in static.parameters]
+        if not all(type_.finite for type_ in types) or math.prod(map(size, types)) > MOST_INSTANCES:
+            raise NotDecidedError(f"`{static.name}` has more arguments than a table of its values can have")
+        found = Encoded(NUMBER, 0)
+        for key in itertools.product(*[type_.values for type_ in types]):
+            fits = both(*[same(arg, self.literal(value)) for arg, value in zip(args, key, strict=True)])
+            try:
+                found = selected(fits, self.literal(extern_value(static, key, static.span)), found)
+            except NotExecutedError as error:
+                raise NeedsPythonError(error.why) from None
+            except ProgramError:
+                ok = both(ok, negated(fits))
+        return _with(found, ok)
 
     def _epistemic(self, term: Epistemic, env: Env, read: Read) -> Encoded:
         guess = z3.Bool(f"known!{next(self._fresh)}")

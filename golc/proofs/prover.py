@@ -5,22 +5,19 @@ from __future__ import annotations
 import itertools
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from golc.diagnostics import ProgramError
+from golc.proofs.asking import Asking, Leaf
 from golc.proofs.cases import Case, explore, sample
-from golc.proofs.domains import Domain, Some, domain
-from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Undecided, Witness
-from golc.proofs.symbols import NotDecidedError, Range
+from golc.proofs.domains import Domain
+from golc.proofs.questions import Question, Undecided, Witness
+from golc.proofs.smallest import rank, reduced, smallest
+from golc.proofs.symbols import NeedsPythonError, NotDecidedError
 from golc.proofs.weaken import Weakening
-from golc.situation.branching import Clause, Options
-from golc.situation.compile import Cell, Compiler
-from golc.situation.layout import Layout
-from golc.theory.reading import fluents_read
-from golc.theory.terms import Term
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import Value, show_call
+from golc.theory.types import Value
 
 IN_ORDER, BY_CHANCE = 200, 300
 """How many cases of one question are gone through in order, and tried by chance, before all others in order."""
@@ -29,7 +26,7 @@ MOST_CASES = 2_000
 """How many cases of one question are gone through."""
 
 MORE_CASES = 500
-"""How many more cases are gone through for a smaller witness, once there is one."""
+"""How many cases are gone through to try out what a solver has found."""
 
 
 @dataclass
@@ -37,26 +34,21 @@ class Prover:
     """Answers questions about one theory, by going through the cases that they distinguish."""
 
     theory: BasicActionTheory
-    layout: Layout = field(init=False)
-    compiler: Compiler = field(init=False)
+    asking: Asking = field(init=False)
 
     def __post_init__(self) -> None:
-        self.layout = Layout(self.theory)
-        self.compiler = Compiler(self.theory, self.layout, ask=GUESS)
-        domains = {fluent.name: domain(fluent.type) for fluent in self.theory.fluents.values()}
-        self._domains: list[Domain] = [domains[name] for name, _ in self.layout.ground_fluents]
-        self._assumed = [self.theory.definitions[name] for name in self.theory.invariants]
-        self._compiled: dict[tuple[Term, tuple[int, ...]], Callable[[Any], Any]] = {}
-        self._clauses: dict[str, list[Clause]] = {}
+        self.asking = Asking(self.theory, GUESS)
 
-    def answer(self, question: Question) -> Witness | Undecided | None:
-        """A witness, as small as one that is found early; none if there is provably none."""
+    def answer(self, question: Question, small: bool = True) -> Witness | Undecided | None:
+        """A witness; none if there is provably none. If it is to be ``small``, a smallest one of those in the cases
+        that can be gone through, otherwise the first one.
+        """
         question = self._weakening.in_order(question)
-        answer = self._explored(question)
+        answer = self._explored(question, small)
         weaker = self._weakening.weaker(question) if isinstance(answer, Undecided) else None
         if weaker is None or (not weaker.steps and not question.fails):
             return answer
-        return None if not weaker.steps or self._coarse.answer(weaker) is None else answer
+        return None if not weaker.steps or self._coarse.answer(weaker, small=False) is None else answer
 
     @cached_property
     def _weakening(self) -> Weakening:
@@ -67,39 +59,40 @@ class Prover:
         """A prover that assumes only what can be gone through: what it proves to be impossible is so."""
         return Prover(replace(self.theory, invariants=self._weakening.definite_invariants()))
 
-    def _explored(self, question: Question) -> Witness | Undecided | None:
-        domains = [*self._domains, *(domain(variable.type) for variable in question.variables)]
-        best: Case | None = None
-        last = MOST_CASES
+    def _explored(self, question: Question, small: bool) -> Witness | Undecided | None:
+        domains = self.asking.domains_of(question)
+        found: list[tuple[Case, Leaf]] = []
         undecided = None
         try:
-            for number, (case, found) in enumerate(self._cases(question, domains)):
-                if not case.whole:
-                    undecided = Undecided("a value is asked for that cannot be enumerated")
-                if found and (best is None or _worth(case) < _worth(best)):
-                    best, last = case, min(last, number + MORE_CASES)
-                if number >= last:
+            for number, (case, leaf) in enumerate(self._cases(question, domains)):
+                found.append((case, leaf))
+                if not small and leaf.is_witness and case.guesses < 2:
+                    break
+                if number == MOST_CASES:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
+        except NeedsPythonError as error:
+            return Undecided(str(error), error.help)
         except NotDecidedError as error:
             undecided = Undecided(str(error))
-        if best is not None:
-            return self._witness(question, domains, best)
+        if not all(case.whole for case, _ in found):
+            undecided = undecided or Undecided("a value is asked for that cannot be enumerated")
+        if any(leaf.is_witness for _, leaf in found):
+            return self._witness(question, domains, found, small and undecided is None)
         return undecided and self._solved(question, domains, undecided)
 
-    def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, bool]]:
+    def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, Leaf]]:
         """Whether what is asked is so, case by case; of many cases some by chance before the rest in order."""
-
         reads = 0
 
-        def ask(case: Case) -> bool:
+        def ask(case: Case) -> Leaf:
             nonlocal reads
             case.reads = reads
-            found = self._ask(question, case)
+            leaf = self.asking.leaf(question, case)
             reads = case.reads
-            return found
+            return leaf
 
-        every = explore(domains, ask)
+        every = explore(partial(Case, domains), ask)
         yield from itertools.islice(every, IN_ORDER)
         first = next(every, None)
         if first is not None:
@@ -119,134 +112,49 @@ class Prover:
             return Undecided(f"{why.reason}; {error}")
         if found is None:
             return None
+        fixed = [*domains]
         for (name, args), value in found[0].items():
-            domains[self.layout.places[name].slot(args)] = (value,)
-        domains[self.layout.size :] = [(value,) for value in found[1]]
+            fixed[self.asking.layout.places[name].slot(args)] = (value,)
+        fixed[self.asking.layout.size :] = [(value,) for value in found[1]]
         try:
-            for case, confirmed in itertools.islice(self._cases(question, domains), MORE_CASES):
-                if confirmed:
-                    return self._witness(question, domains, case)
+            for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
+                if leaf.is_witness:
+                    return self._witness(question, domains, [(case, leaf)])
         except NotDecidedError as error:
             return Undecided(f"{why.reason}; {error}")
         return Undecided(f"{why.reason}; what the solver says is not confirmed")
 
-    def _witness(self, question: Question, domains: Sequence[Domain], found: Case) -> Witness:
-        """A case in which what is asked is so, with a value for each integer that has only been narrowed down."""
-        values = found.values()
-        fixed = [(values[slot],) if slot in values else of for slot, of in enumerate(domains)]
-        case = Case(fixed, [])
-        error = None
-        try:
-            all(self._succeeds(step, case) for step in question.steps)
-        except ProgramError as raised:
-            error = raised
-        read = sorted(slot for slot in case.cells if slot < self.layout.size)
-        fluents = {show_call(*self.layout.ground_fluents[slot]): case.cells[slot] for slot in read}
-        numbers = range(self.layout.size, len(domains))
-        return Witness(
-            fluents, tuple([values[n] if n in values else _any(domains[n]) for n in numbers]), error, found.guesses < 2
-        )
+    def _witness(
+        self, question: Question, domains: Sequence[Domain], cases: Sequence[tuple[Case, Leaf]], all_: bool = False
+    ) -> Witness:
+        """The smallest witness of those in some cases, or of all, if these are all cases."""
+        first = self.asking.layout.size
+        if all_ and not any(case.open for case, _ in cases):
+            found = smallest([leaf for _, leaf in cases], domains, first)
+            if found is not None:
+                return self._fixed(question, domains, found, {*found})
+        case, leaf = min([pair for pair in cases if pair[1].is_witness], key=lambda pair: _worth(pair[0], domains))
+        values = case.values()
+        matter = None if case.open else reduced(self.asking, question, values, leaf.answer)
+        return replace(self._fixed(question, domains, values, matter), certain=case.guesses < 2)
 
-    def _ask(self, question: Question, case: Case) -> bool:
-        """Whether what is asked is so in a case."""
-        fails = False
-        try:
-            for step in question.steps:
-                if not self._succeeds(step, case):
-                    return False
-        except ProgramError:
-            fails = True
-        return fails is question.fails and self._is_assumed(case)
-
-    def _succeeds(self, step: Step, case: Case) -> bool:
-        match step:
-            case Asked(false=false):
-                return bool(self._function(step)(case)) is not false
-            case Compared(left=left, right=right, equal=equal):
-                return bool(self._function(left)(case) == self._function(right)(case)) is equal
-            case Changed(action=action, effect=effect, env=env):
-                self._clauses_of(action)[effect].changes(case, self._values(env, case))
-                return True
-            case Afterwards(term=term):
-                return not self._function(Asked(term))(self._after(step, case))
-
-    def _is_assumed(self, case: Case) -> bool:
-        """Whether the invariants hold in a case; one that has no value there does not."""
-        try:
-            return all(self._function(Asked(invariant.body))(case) for invariant in self._assumed)
-        except ProgramError:
-            return False
-
-    def _values(self, env: tuple[int, ...], case: Case) -> tuple[Value, ...]:
-        return tuple([case[self.layout.size + number] for number in env])
-
-    def _after(self, step: Afterwards, case: Case) -> _After:
-        """The situation after an action, as far as the formula speaks of it."""
-        args = self._values(step.env, case)
-        fluents = fluents_read(self.theory, [step.term])
-        changes: dict[int, Any] = {}
-        for clause in self._clauses_of(step.action):
-            if clause.effect.fluent in fluents:
-                for env in clause.environments(args):
-                    changes.update(clause.changes(case, env))
-        return _After(case, changes)
-
-    def _clauses_of(self, name: str) -> list[Clause]:
-        if name not in self._clauses:
-            action = self.theory.actions[name]
-            depth = len(action.parameters)
-            self._clauses[name] = [Clause(effect, depth, self.layout, self.compiler) for effect in action.effects]
-        return self._clauses[name]
-
-    def _function(self, asked: Asked) -> Callable[[Any], Any]:
-        key = (asked.term, asked.env)
-        if key not in self._compiled:
-            cells = tuple([Cell(f"s[{self.layout.size + number}]") for number in asked.env])
-            self._compiled[key] = self.compiler.function("s", [f"return {self.compiler.expression(asked.term, cells)}"])
-        return self._compiled[key]
+    def _fixed(
+        self, question: Question, domains: Sequence[Domain], values: Mapping[int, Value], matter: set[int] | None
+    ) -> Witness:
+        """The witness with some values, of which those matter that are read, if nothing else is known of that."""
+        case = Case([(values[slot],) if slot in values else of for slot, of in enumerate(domains)], [])
+        verdict = self.asking.verdict(question, case)
+        first = self.asking.layout.size
+        kept = {*case.cells} if matter is None else matter
+        shown = {slot: value for slot, value in values.items() if slot >= first or slot in kept}
+        error = verdict if isinstance(verdict, ProgramError) else None
+        return self.asking.witness(question, domains, shown, error)
 
 
-class _After:
-    """A case with the changes of an action."""
-
-    def __init__(self, case: Case, changes: dict[int, Any]) -> None:
-        self._case = case
-        self._changes = changes
-
-    def __getitem__(self, slot: int) -> Value:
-        slot = int(slot)
-        self._case.look()
-        if slot not in self._changes:
-            return self._case[slot]
-        value = self._changes[slot]
-        if isinstance(value, Options):
-            value = self._changes[slot] = value.values[self._case.choose(len(value.values))]
-        return value  # type: ignore[no-any-return]
-
-    def choose(self, ways: int) -> int:
-        """Decide which of several ways things are."""
-        return self._case.choose(ways)
-
-    def guess(self) -> bool:
-        """Decide something about what the agent knows, which is connected with what it knew before the action."""
-        self._case.guesses += 1
-        return self._case.guess()
-
-
-def _worth(case: Case) -> tuple[bool, int]:
-    """What makes a witness worse: that it may be none, and its size."""
-    return case.guesses > 1, len(case.cells)
-
-
-def _any(domain: Domain) -> Value:
-    """Some value, for a variable that nothing depends on."""
-    match domain:
-        case Range() as range_:
-            return range_.nearest_to_zero()
-        case Some(values=values):
-            return values[0]
-        case values:
-            return values[0]
+def _worth(case: Case, domains: Sequence[Domain]) -> tuple[bool, int, int]:
+    """What makes a witness worse: that it may be none, how many values it has, and how large these are."""
+    values = case.values()
+    return case.guesses > 1, len(values), sum([rank(value, domains[slot]) for slot, value in values.items()])
 
 
 def _guess_knows(ask: Callable[..., Any], case: Any, *rest: Any) -> bool:

@@ -6,13 +6,13 @@ invariants hold, whether or not they can be reached.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import TypeAlias
 
 from golc.diagnostics import ProgramError
 from golc.theory.terms import Term
-from golc.theory.theory import Parameter
+from golc.theory.theory import BasicActionTheory, Parameter
 from golc.theory.types import Value, show
 
 
@@ -20,12 +20,13 @@ from golc.theory.types import Value, show
 class Asked:
     """A formula that has to hold; ``env`` says which of the question's variables stand for those of the term.
 
-    ``false``: it has to be false instead.
+    ``false``: it has to be false instead. ``known``: the agent has to know it.
     """
 
     term: Term
     env: tuple[int, ...] = ()
     false: bool = False
+    known: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,12 +75,14 @@ class Question:
 class Witness:
     """A situation that answers a question with yes: the values of the ground fluents that matter, and those of the
     variables. ``error``: what goes wrong when something that was asked is evaluated there. ``certain``: false if it was
-    guessed several times what the agent knows, which need not go together."""
+    guessed several times what the agent knows, which need not go together. ``way``: the actions that lead to the
+    situation from the initial one, if it is known to be reached."""
 
     fluents: Mapping[str, Value]
     variables: tuple[Value, ...]
     error: ProgramError | None = None
     certain: bool = True
+    way: tuple[str, ...] | None = None
 
     def __str__(self) -> str:
         return ", ".join(f"{name} = {show(value)}" for name, value in self.fluents.items()) or "any situation"
@@ -91,3 +94,18 @@ class Undecided:
 
     reason: str
     help: str | None = None
+
+
+def terms_of(theory: BasicActionTheory, step: Step) -> Iterator[Term]:
+    """What a step looks at."""
+    match step:
+        case Asked(term=term):
+            yield term
+        case Compared(left=left, right=right):
+            yield from (left.term, right.term)
+        case Afterwards(action=name, term=term):
+            yield term
+            for effect in theory.actions[name].effects:
+                yield from effect.terms
+        case Changed(action=name, effect=number):
+            yield from theory.actions[name].effects[number].terms

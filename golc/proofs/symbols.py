@@ -20,6 +20,12 @@ class NotDecidedError(Exception):
     """Something is asked that intervals and enumeration do not answer: why."""
 
 
+class NeedsPythonError(NotDecidedError):
+    """What is asked depends on Python code that is not executed."""
+
+    help = "`--trust` would decide it: it executes the file"
+
+
 class Range:
     """The integers from ``low`` to ``high``, where none is no bound."""
 

@@ -6,15 +6,17 @@ fails. So if the weaker one has none, the whole one has none.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from golc.proofs.certain import NO_FACTS, Certainty, Facts
 from golc.proofs.domains import Some, domain
-from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step
+from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, terms_of
 from golc.proofs.symbols import MOST_CONCRETE, Range
+from golc.theory.border import PythonFunction
 from golc.theory.reading import reached
-from golc.theory.terms import Choice, FluentTerm, Operation, Operator, Term, Variable, ranges
+from golc.theory.terms import FluentTerm, Operation, Operator, StaticTerm, Term, Variable
 from golc.theory.theory import BasicActionTheory, Effect
 from golc.theory.types import Type
 
@@ -42,7 +44,7 @@ class Weakening:
 
     def _weight(self, step: Step) -> int:
         """About how many values a step reads."""
-        read = {part for part in reached(self.theory, self._terms(step)) if _is_read(part)}
+        read = {part for part in reached(self.theory, terms_of(self.theory, step)) if _is_read(part)}
         return sum(MOST_CONCRETE if isinstance(of, Some | Range) else len(of) for of in [domain(p.type) for p in read])
 
     def weaker(self, question: Question) -> Question | None:
@@ -52,7 +54,7 @@ class Weakening:
         if question.fails and all(certain):
             return replace(question, steps=())
         pairs = zip(steps, certain, strict=True)
-        kept = [step for step, sure in pairs if not sure or self._are_definite(self._terms(step))]
+        kept = [step for step, sure in pairs if not sure or self._are_definite(terms_of(self.theory, step))]
         return replace(question, steps=tuple(kept)) if len(kept) < len(steps) else None
 
     def _certain(self, steps: list[Step]) -> list[bool]:
@@ -77,27 +79,33 @@ class Weakening:
             case Afterwards():
                 return False
 
-    def _terms(self, step: Step) -> Iterator[Term]:
-        """What a step looks at."""
-        match step:
-            case Asked(term=term):
-                yield term
-            case Compared(left=left, right=right):
-                yield from (left.term, right.term)
-            case Afterwards(action=name, term=term):
-                yield term
-                for effect in self.theory.actions[name].effects:
-                    yield from _parts(effect)
-            case Changed():
-                yield from _parts(self._effect(step))
-
     def _effect(self, step: Changed) -> Effect:
         return self.theory.actions[step.action].effects[step.effect]
 
     def _are_definite(self, terms: Iterable[Term]) -> bool:
         """Whether all values that some terms read can be gone through, or calculated with."""
         parts = reached(self.theory, terms)
-        return not any(_is_read(part) and _is_vague(part.type) for part in parts)
+        return not any((_is_read(part) and _is_vague(part.type)) or self._is_kept_back(part) for part in parts)
+
+    def _is_kept_back(self, part: Term) -> bool:
+        return isinstance(part, StaticTerm) and part.static in self._kept_back
+
+    @cached_property
+    def _kept_back(self) -> frozenset[str]:
+        """The statics that call, perhaps through others, Python code that is not executed."""
+        found: set[str] = set()
+        bodies = {name: static.body for name, static in self.theory.statics.items()}
+        more = {name for name, body in bodies.items() if isinstance(body, PythonFunction) and not body.file.trusted}
+        while more:
+            found |= more
+            more = {
+                name
+                for name, body in bodies.items()
+                if name not in found and not isinstance(body, Mapping | PythonFunction)
+                for part in reached(self.theory, [body])
+                if isinstance(part, StaticTerm) and part.static in found
+            }
+        return frozenset(found)
 
 
 def _single(steps: Iterable[Step]) -> Iterator[Step]:
@@ -108,13 +116,6 @@ def _single(steps: Iterable[Step]) -> Iterator[Step]:
                 yield from _single([Asked(part, env) for part in args])
             case _:
                 yield step
-
-
-def _parts(effect: Effect) -> Iterator[Term]:
-    yield from ranges(effect.binders)
-    yield from effect.args
-    yield effect.value.among if isinstance(effect.value, Choice) else effect.value
-    yield from [condition for condition in (effect.where, effect.condition) if condition is not None]
 
 
 def _is_read(part: Term) -> bool:

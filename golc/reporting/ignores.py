@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from golc.diagnostics import Code, Diagnostic, Severity, Source, Span
+from golc.diagnostics import Code, Diagnostic, Edit, Fix, Severity, Source, Span
 from golc.loading import Examined, by_place
 from golc.reporting.selection import CODES
 from golc.theory.suggest import did_you_mean
@@ -86,7 +86,8 @@ def _codes(source: Source, found: re.Match[str]) -> tuple[Span, ...] | None:
 def _misspelt(comment: Ignore) -> Iterator[Diagnostic]:
     if comment.word.text != WORD:
         message = f"there is no comment `golc: {comment.word.text}`"
-        yield _warning(message, comment.word, f"did you mean `{WORD}`?")
+        fix = Fix(f"write `{WORD}` for `{comment.word.text}`", (Edit(comment.word, WORD),))
+        yield _warning(message, comment.word, f"did you mean `{WORD}`?", fix)
     elif comment.codes == ():
         yield _warning("there is no code in the brackets", comment.span, "without brackets it is about all codes")
     for code in comment.codes or ():
@@ -98,11 +99,40 @@ def _idle(comment: Ignore, covered: set[str]) -> Iterator[Diagnostic]:
     if comment.word.text != WORD:
         return
     if comment.codes is None and not covered:
-        yield _warning("there is no finding to leave out here", comment.span, "remove the comment")
-    for code in comment.codes or ():
-        if code.text in CODES and code.text not in covered:
-            yield _warning(f"there is no finding {code.text} to leave out here", code, "remove the code")
+        yield _warning("there is no finding to leave out here", comment.span, "remove the comment", _without(comment))
+    codes = comment.codes or ()
+    idle = [code for code in codes if code.text in CODES and code.text not in covered]
+    for code in idle:
+        fix = _without(comment) if len(idle) == len(codes) else _without_code(comment, code)
+        yield _warning(f"there is no finding {code.text} to leave out here", code, "remove the code", fix)
 
 
-def _warning(message: str, span: Span, help_: str | None) -> Diagnostic:
-    return Diagnostic(Code.IDLE_IGNORE, message, span, Severity.WARNING, help=help_)
+def _without(comment: Ignore) -> Fix:
+    """Remove a comment: with its line if nothing else stands there, without what else it says for the reader."""
+    text, start, end = comment.span.source.text, comment.span.start, comment.span.end
+    line = comment.span.source.line_starts[comment.span.line - 1]
+    rest = re.compile(r"[^\r\n]*").match(text, end)
+    reader = rest.group().strip() if rest else ""
+    if reader and not reader.startswith("#"):
+        return _removing(Span(comment.span.source, start + 1, end))
+    blanks = len(text[line:start]) - len(text[line:start].rstrip())
+    alone = not reader and blanks == start - line
+    stop = (rest.end() if rest else end) if not reader else end
+    newline = re.compile(r"\r?\n").match(text, stop) if alone else None
+    return _removing(Span(comment.span.source, start - blanks * (not reader), newline.end() if newline else stop))
+
+
+def _without_code(comment: Ignore, code: Span) -> Fix:
+    """Remove a code with the comma behind it, or the one before it."""
+    text = comment.span.source.text
+    behind = re.compile(r"[\s,]+(?=[^\s,\]])").match(text, code.end)
+    before = len(text[: code.start].rstrip(" ,")) if not behind else code.start
+    return _removing(Span(code.source, before, behind.end() if behind else code.end))
+
+
+def _removing(span: Span) -> Fix:
+    return Fix(f"remove `{span.text.strip()}`", (Edit(span, ""),))
+
+
+def _warning(message: str, span: Span, help_: str | None, fix: Fix | None = None) -> Diagnostic:
+    return Diagnostic(Code.IDLE_IGNORE, message, span, Severity.WARNING, help=help_, fix=fix)

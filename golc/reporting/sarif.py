@@ -9,13 +9,13 @@ from typing import Any
 from urllib.parse import quote
 
 from golc.codes.pages import page
-from golc.diagnostics import Code, Diagnostic, Source, Span
+from golc.diagnostics import Code, Diagnostic, Edit, Fix, Source, Span
 from golc.reporting.words import is_file, whole_message
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
 
-def log(findings: Iterable[Diagnostic], counts: Mapping[str, int]) -> dict[str, Any]:
+def log(findings: Iterable[Diagnostic], counts: Mapping[str, Any]) -> dict[str, Any]:
     """A log with one run: every code as a rule, every finding as a result; ``counts`` are properties of the run."""
     driver = {"name": "golc", "version": version("golc"), "rules": [_rule(code) for code in Code]}
     ranks = {code: rank for rank, code in enumerate(Code)}
@@ -55,7 +55,20 @@ def _result(finding: Diagnostic, rank: int) -> dict[str, Any]:
         result["relatedLocations"] = [
             {"id": number, **_location(label.span, label.text)} for number, label in enumerate(finding.labels, start=1)
         ]
+    if finding.fix is not None:
+        result["fixes"] = [_fix(finding.fix)]
     return result
+
+
+def _fix(fix: Fix) -> dict[str, Any]:
+    """Every fix changes the one file of its finding."""
+    replacements = [_replacement(edit) for edit in fix.edits]
+    change = {"artifactLocation": {"uri": _uri(fix.edits[0].span.source)}, "replacements": replacements}
+    return {"description": {"text": fix.does}, "artifactChanges": [change]}
+
+
+def _replacement(edit: Edit) -> dict[str, Any]:
+    return {"deletedRegion": _region(edit.span), "insertedContent": {"text": edit.text}}
 
 
 def _markdown(finding: Diagnostic) -> str:
@@ -70,14 +83,13 @@ def _location(span: Span, text: str) -> dict[str, Any]:
         return {"logicalLocations": [{"fullyQualifiedName": span.source.name}], **said}
     place: dict[str, Any] = {"artifactLocation": {"uri": _uri(span.source)}}
     if span.source.text:
-        place["region"] = _region(span)
+        place["region"] = {**_region(span), "snippet": {"text": span.text}}
     return {"physicalLocation": place, **said}
 
 
 def _region(span: Span) -> dict[str, Any]:
     (line, column), (end_line, end_column) = span.source.position(span.start), span.source.position(span.end)
-    region = {"startLine": line, "startColumn": column, "endLine": end_line, "endColumn": end_column}
-    return {**region, "snippet": {"text": span.text}}
+    return {"startLine": line, "startColumn": column, "endLine": end_line, "endColumn": end_column}
 
 
 def _uri(source: Source) -> str:

@@ -12,12 +12,14 @@ from itertools import product
 from math import prod
 from typing import Any, NamedTuple
 
+from golc.diagnostics import Span
 from golc.situation import collections, guards
 from golc.situation.collections import known_value, listed
 from golc.situation.happened import before
 from golc.situation.layout import Layout, Place
 from golc.situation.operators import in_one_form, operation
 from golc.situation.worlds import ASK
+from golc.theory.border import PythonFunction
 from golc.theory.fitting import includes, strip_optional
 from golc.theory.terms import (
     Before,
@@ -139,7 +141,7 @@ class Compiler:
             case FluentTerm(fluent=name, args=args):
                 return f"s[{self.slot(self.layout.places[name], args, cells, depth + 1)}]"
             case StaticTerm(static=name, args=args):
-                return self._static(self.theory.statics[name], args, cells, depth + 1)
+                return self._static(self.theory.statics[name], args, cells, depth + 1, term.span)
             case DefinedTerm(definition=name, args=args):
                 definition = self.theory.definitions[name]
                 return self._call(self._definition(definition), name, definition.parameters, args, cells, depth + 1)
@@ -257,8 +259,10 @@ class Compiler:
     ) -> str:
         return f"{function}({', '.join(['s', *self.arguments(what, parameters, args, cells, depth)])})"
 
-    def _static(self, static: Static, args: tuple[Term, ...], cells: Cells, depth: int) -> str:
+    def _static(self, static: Static, args: tuple[Term, ...], cells: Cells, depth: int, span: Span) -> str:
         texts = self.arguments(static.name, static.parameters, args, cells, depth)
+        if isinstance(static.body, PythonFunction):
+            return f"{self.bind('extern', guards.extern(static, span))}({', '.join(texts)})"
         if ("static", static.name) not in self._made:
             self._made["static", static.name] = self._made_static(static)
         return (
@@ -275,6 +279,7 @@ class Compiler:
         name = self._made["static", static.name] = self.bind("static", memo)  # before its body, which may be recursive
         cells = variables(len(static.parameters))
         body = static.body
+        assert not isinstance(body, PythonFunction)
         signature = ", ".join(["s", *(cell.text for cell in cells)])
         memo.function = self.function(signature, [f"return {self.expression(body, cells)}"])
         return name

@@ -6,7 +6,9 @@ from collections.abc import Callable, Collection, Iterator, Mapping
 from fractions import Fraction
 from itertools import islice
 
+from golc.diagnostics import Span
 from golc.theory import errors
+from golc.theory.border import PythonFunction, extern_value
 from golc.theory.evaluate import DEPTH, MOST_REMEMBERED
 from golc.theory.order import arranged
 from golc.theory.recursion import EVALUATION, deep_recursion
@@ -66,12 +68,17 @@ class Memo(dict[tuple[Value, ...], Value]):
         finally:
             depth.open -= 1
         if value not in static.type:
-            assert not isinstance(static.body, Mapping)
+            assert not isinstance(static.body, Mapping | PythonFunction)
             raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
         if len(self) >= MOST_REMEMBERED:
             self.clear()
         self[args] = value
         return value
+
+
+def extern(static: Static, span: Span) -> Callable[..., Value]:
+    """The function of Python that is called at a place."""
+    return lambda *args: extern_value(static, args, span)
 
 
 def argument_failure(arg: Term, what: str, type_: Type) -> Callable[[Value], Exception]:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from lark import Token
 
-from golc.diagnostics import Code, Diagnostic, Label, Span
+from golc.diagnostics import Code, Diagnostic, Fix, Label, Span
 from golc.syntax.failure import LAYOUT, Failure, Hint
+from golc.syntax.fixes import block_below, end_of_line, indentation, insertion, line_end, removal, spaces_for_tabs
 from golc.syntax.layout import CLOSING, LayoutError
 from golc.syntax.words import BRANCHES, CLAUSES, STATEMENTS
 
@@ -29,6 +30,7 @@ def wrong_layout(part: Span, error: LayoutError) -> Diagnostic:
             "this line is indented with a tab",
             span,
             help="indent with spaces, four for each block; most editors can do it for you",
+            fix=spaces_for_tabs(part),
         )
     columns = [str(level) for level in error.levels]
     around = f"{', '.join(columns[:-1])} and {columns[-1]}" if columns[1:] else columns[0]
@@ -42,7 +44,7 @@ def wrong_layout(part: Span, error: LayoutError) -> Diagnostic:
 
 def missing_block(failure: Failure) -> Diagnostic | None:
     """Nothing is indented below a colon."""
-    if failure.accepts != {"_INDENT"} or failure.previous is None:
+    if failure.accepts != {"_INDENT"} or failure.previous is None or failure.bad is None:
         return None
     word = str(failure.line_before[0]) if failure.line_before else ""
     empty = {"device": "; without any, leave the colon out", "action": "", "exog": ""}
@@ -63,6 +65,7 @@ def block_on_the_line(failure: Failure) -> Diagnostic | None:
         Code.SYNTAX,
         "a block begins on a line of its own",
         help="put it on the next line, indented by four spaces",
+        fix=block_below(failure.here()),
     )
 
 
@@ -81,6 +84,7 @@ def missing_colon(failure: Failure) -> Diagnostic | None:
         f"the colon at the end of this `{line[0]}` is missing",
         failure.gap(),
         "end the line with `:`",
+        fix=insertion(failure.gap(), ":"),
     )
 
 
@@ -110,7 +114,8 @@ def lost_branch(failure: Failure) -> Diagnostic | None:
     word = _branch_word(failure)
     if word is not None and word == "over" and "_OVER" in failure.accepts:
         span = failure.at((word.end_pos or 0), (word.end_pos or 0))
-        return failure.finding(Code.MISSING, "the colon behind this `over` is missing", span, "end the line with `:`")
+        message, help = "the colon behind this `over` is missing", "end the line with `:`"
+        return failure.finding(Code.MISSING, message, span, help, fix=insertion(span, ":"))
     if word is not None:
         return failure.finding(
             Code.INDENTATION,
@@ -135,8 +140,15 @@ def lost_branch(failure: Failure) -> Diagnostic | None:
             "the last line of this `axiom` is missing",
             failure.gap(),
             "end it with `otherwise unchanged`",
+            fix=_otherwise(failure),
         )
     return None
+
+
+def _otherwise(failure: Failure) -> Fix:
+    """The last line of an axiom, below the one before it."""
+    last, end = failure.span(failure.line_before[0]), end_of_line(failure.gap())
+    return insertion(end, f"{line_end(last)}{indentation(last)}otherwise unchanged")
 
 
 def _branch_word(failure: Failure) -> Token | None:
@@ -215,7 +227,8 @@ def empty_brackets(failure: Failure) -> Diagnostic | None:
     if failure.kind != "RPAR" or failure.previous is None or failure.previous.type != "LPAR":
         return None
     span = failure.span(failure.previous).to(failure.here())
-    return failure.finding(Code.SYNTAX, "empty parentheses are left out", span, "write the name alone")
+    message, help = "empty parentheses are left out", "write the name alone"
+    return failure.finding(Code.SYNTAX, message, span, help, fix=removal(span))
 
 
 BRACKETS: tuple[Hint, ...] = (empty_brackets, wrong_bracket, unclosed_bracket)

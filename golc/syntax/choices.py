@@ -6,6 +6,7 @@ from itertools import pairwise
 
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.failure import Failure, Hint
+from golc.syntax.fixes import removal
 
 
 def bare_choices(failure: Failure) -> Diagnostic | None:
@@ -23,7 +24,7 @@ def initially_colon(failure: Failure) -> Diagnostic | None:
     if failure.kind != "COLON" or failure.line != ["initially"]:
         return None
     message = "behind `initially` stands a formula, without a colon"
-    return failure.finding(Code.SYNTAX, message, help="remove the colon")
+    return failure.finding(Code.SYNTAX, message, help="remove the colon", fix=removal(failure.here()))
 
 
 def nameless_prune(failure: Failure) -> Diagnostic | None:

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 from lark import Token, UnexpectedCharacters, UnexpectedToken
 from lark.parsers.lalr_interactive_parser import InteractiveParser
 
-from golc.diagnostics import Code, Diagnostic, Label, Span
+from golc.diagnostics import Code, Diagnostic, Fix, Label, Severity, Span
 from golc.syntax.layout import CLOSING, OPENING
 from golc.syntax.parser import parser
 from golc.syntax.terminals import words
@@ -125,9 +125,10 @@ class Failure:
         span: Span | None = None,
         help: str | None = None,
         labels: tuple[Label, ...] = (),
+        fix: Fix | None = None,
     ) -> Diagnostic:
-        """A diagnostic, at the bad token if no other place is given."""
-        return Diagnostic(code, message, span or self.here(), help=help, labels=labels)
+        """An error, at the bad token if no other place is given."""
+        return Diagnostic(code, message, span or self.here(), Severity.ERROR, labels=labels, help=help, fix=fix)
 
 
 Hint: TypeAlias = Callable[[Failure], Diagnostic | None]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import re
 import unicodedata
 
-from golc.diagnostics import Code, Diagnostic
+from golc.diagnostics import Code, Diagnostic, Edit, Fix, Span
 from golc.syntax.failure import Failure, Hint
+from golc.syntax.fixes import ends_line, instead, removal, sign_at
 
 SIGNS = {
     "==": ("equality", "="),
@@ -62,6 +63,12 @@ SIGNS = {
 }
 """Signs of other languages: what they mean there, and what that is here."""
 
+QUOTES = {"“": "”", "”": "”", "'": "'"}
+"""What a text begins with elsewhere, and what it ends with there."""
+
+UNCERTAIN = frozenset({"/", "=>", *QUOTES})
+"""Signs that may have been meant otherwise: a division without rounding, ``>=``; and those of which there are two."""
+
 PHRASES = {
     ";": ("`;` does not join or end statements", "write them one below the other, each on a line of its own"),
     ":-": (
@@ -101,6 +108,10 @@ WORDS = {
 """Words of other languages that came where no name can."""
 
 
+TRANSLATED = {"elseif": "elif", "elsif": "elif", "mod": "%", "div": "//", "is": "="}
+"""Words that have one counterpart."""
+
+
 def foreign_sign(failure: Failure) -> Diagnostic | None:
     """A sign that the bad token or character is a part of."""
     found = _sign_at(failure)
@@ -110,9 +121,35 @@ def foreign_sign(failure: Failure) -> Diagnostic | None:
     span = failure.at(start, start + len(sign))
     if sign in SIGNS:
         meaning, ours = SIGNS[sign]
-        return failure.finding(Code.FOREIGN, f"{meaning} is `{ours}`, not `{sign}`", span, f"write `{ours}`")
+        if ours == "=" and "ASSIGN" in failure.accepts:
+            meaning, ours = "a change", ":="
+        fix = _quoted(failure, span) if sign in QUOTES else None if sign in UNCERTAIN else instead(span, ours)
+        return failure.finding(Code.FOREIGN, f"{meaning} is `{ours}`, not `{sign}`", span, f"write `{ours}`", fix=fix)
     message, help = PHRASES[sign]
-    return failure.finding(Code.FOREIGN, message, span, help)
+    return failure.finding(Code.FOREIGN, message, span, help, fix=_phrase(failure, span))
+
+
+def _quoted(failure: Failure, span: Span) -> Fix | None:
+    """Quotation marks at both ends of what stands between two others, where only a text can stand."""
+    inner = re.match(r"(.)([^\"“”'{}\\]*)(.)", failure.rest)
+    if inner is None or inner[3] != QUOTES[span.text] or failure.rest.count(inner[3]) > 1 + (inner[1] == inner[3]):
+        return None
+    if "STRING" not in failure.accepts or "INT" in failure.accepts or span != failure.here():
+        return None
+    end = Span(span.source, span.start + inner.end() - 1, span.start + inner.end())
+    return Fix('write `"` around the text', (Edit(span, '"'), Edit(end, '"')))
+
+
+def _phrase(failure: Failure, span: Span) -> Fix | None:
+    """What is put right at the end of a line outside of brackets: a semicolon, a question mark behind a call."""
+    if failure.brackets or not ends_line(span):
+        return None
+    if span.text == ";":
+        return removal(span)
+    if span.text == "?" and failure.line and failure.line[0].type == "NAME":
+        start = failure.span(failure.line[0]).start
+        return Fix("write `test` before it", (Edit(Span(span.source, start, start), "test "), Edit(span, "")))
+    return None
 
 
 def _sign_at(failure: Failure) -> tuple[int, str] | None:
@@ -133,18 +170,28 @@ def foreign_word(failure: Failure) -> Diagnostic | None:
     """``then``, ``mod`` and the like; ``else if``."""
     if failure.kind == "IF" and failure.previous is not None and failure.previous.type == "ELSE":
         span = failure.span(failure.previous).to(failure.here())
-        return failure.finding(Code.FOREIGN, "“else if” is `elif`", span, "write `elif`")
+        return failure.finding(Code.FOREIGN, "“else if” is `elif`", span, "write `elif`", fix=instead(span, "elif"))
     if failure.kind == "NAME" and str(failure.bad) in WORDS:
         message, help = WORDS[str(failure.bad)]
-        return failure.finding(Code.FOREIGN, message, help=help)
+        return failure.finding(Code.FOREIGN, message, help=help, fix=_translated(failure))
     return None
+
+
+def _translated(failure: Failure) -> Fix | None:
+    """The sign for a word that stands for it; for a word at the beginning of a block if the block begins below it."""
+    here = failure.here()
+    if here.text in ("then", "do", "begin"):
+        return sign_at(here, ":") if ends_line(here) else None
+    ours = TRANSLATED.get(here.text)
+    return None if ours is None else instead(here, ours)
 
 
 def full_stop(failure: Failure) -> Diagnostic | None:
     """Prolog's full stop at the end of a line."""
     if not re.match(r"\.[ \t]*(#|$)", failure.rest):
         return None
-    return failure.finding(Code.FOREIGN, "a line does not end in a full stop", help="leave it out")
+    here = failure.here()
+    return failure.finding(Code.FOREIGN, "a line does not end in a full stop", help="leave it out", fix=removal(here))
 
 
 def comment(failure: Failure) -> Diagnostic | None:
@@ -152,7 +199,8 @@ def comment(failure: Failure) -> Diagnostic | None:
     if failure.kind not in ("IDIV", "MOD"):
         return None
     sign = str(failure.bad)
-    return failure.finding(Code.FOREIGN, f"a comment begins with `#`, not `{sign}`", help=f"write `#` for `{sign}`")
+    message, help = f"a comment begins with `#`, not `{sign}`", f"write `#` for `{sign}`"
+    return failure.finding(Code.FOREIGN, message, help=help, fix=instead(failure.here(), "#"))
 
 
 def braces(failure: Failure) -> Diagnostic | None:
@@ -185,7 +233,20 @@ def character(failure: Failure) -> Diagnostic | None:
         return failure.finding(Code.SYNTAX, "a name begins with a letter, not with `_`", help="write it without")
     name = unicodedata.name(found, "a control character").lower()
     shown = f"`{found}`" if found.isprintable() and not found.isspace() else f"U+{ord(found):04X}"
-    return failure.finding(Code.SYNTAX, f"the character {shown} ({name}) has no meaning here", help="remove it")
+    message = f"the character {shown} ({name}) has no meaning here"
+    return failure.finding(Code.SYNTAX, message, help="remove it", fix=_invisible(failure))
+
+
+def _invisible(failure: Failure) -> Fix | None:
+    """Spaces for those of other kinds, and nothing for characters without width."""
+    kind = unicodedata.category(failure.rest[0])
+    if kind not in ("Zs", "Cf"):
+        return None
+    width = next((i for i, found in enumerate(failure.rest) if unicodedata.category(found) != kind), len(failure.rest))
+    span = failure.at(failure.place, failure.place + width)
+    return (
+        Fix("write plain spaces", (Edit(span, " " * width),)) if kind == "Zs" else Fix("remove it", (Edit(span, ""),))
+    )
 
 
 NOTATION: tuple[Hint, ...] = (full_stop, foreign_sign, foreign_word)

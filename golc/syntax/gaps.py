@@ -5,9 +5,10 @@ from __future__ import annotations
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.blocks import CLOSING_OF, not_closed
 from golc.syntax.failure import Failure, Hint
+from golc.syntax.fixes import insertion, sign_at
 from golc.syntax.layout import CLOSING
 from golc.syntax.quantifiers import QUANTIFIERS
-from golc.syntax.repair import repaired
+from golc.syntax.repair import goes_on, repaired
 from golc.syntax.terminals import title, titles
 
 STARTS = frozenset({"NAME", "INT", "REAL", "STRING", "LPAR", "LBRACE", "TRUE", "FALSE", "NONE", *QUANTIFIERS})
@@ -22,7 +23,7 @@ def missing_type(failure: Failure) -> Diagnostic | None:
         return failure.finding(Code.MISSING, message, failure.gap(), help)
     if failure.accepts == {"COLON"} and name is not None and failure.kind == "NAME" and failure.brackets:
         message, help = f"the colon between `{name}` and its type is missing", f"write `{name}: {failure.bad}`"
-        return failure.finding(Code.MISSING, message, failure.gap(), help)
+        return failure.finding(Code.MISSING, message, failure.gap(), help, fix=insertion(failure.gap(), ":"))
     if failure.wants_type and failure.kind not in ("NAME", "INT"):
         return failure.finding(
             Code.MISSING, "a type is missing", failure.gap(), "name a type, or write `1..6`, `{a, b}`"
@@ -66,7 +67,8 @@ def missing_unit(failure: Failure) -> Diagnostic | None:
     if "S" in failure.accepts:
         return failure.finding(Code.MISSING, "the unit of this time is missing", failure.gap(), "write `s`, seconds")
     if "STEPS" in failure.accepts:
-        return failure.finding(Code.MISSING, "the word `steps` is missing", failure.gap(), "write `at most … steps`")
+        message, gap, help = "the word `steps` is missing", failure.gap(), "write `at most … steps`"
+        return failure.finding(Code.MISSING, message, gap, help, fix=insertion(gap, " steps"))
     return None
 
 
@@ -136,7 +138,10 @@ def missing_token(failure: Failure) -> Diagnostic | None:
         help = "an interval is written `1..6`"
     elif failure.previous == "-":
         help = "write a number, or parentheses around what has no number: `(-n)`"
-    return failure.finding(Code.MISSING, f"{title(only)} is missing after `{failure.previous}`", failure.gap(), help)
+    message, gap = f"{title(only)} is missing after `{failure.previous}`", failure.gap()
+    certain = only in ("COLON", "EQ", "ASSIGN") and goes_on(failure, only)
+    fix = sign_at(gap, title(only).strip("`")) if certain else None
+    return failure.finding(Code.MISSING, message, gap, help, fix=fix)
 
 
 def anything(failure: Failure) -> Diagnostic:

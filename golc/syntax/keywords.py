@@ -6,8 +6,11 @@ import difflib
 import re
 from collections.abc import Iterable
 
-from golc.diagnostics import Code, Diagnostic
+from lark import Token
+
+from golc.diagnostics import Code, Diagnostic, Fix, Span
 from golc.syntax.failure import Failure
+from golc.syntax.fixes import instead
 from golc.syntax.terminals import word_of
 from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, OTHER_NAMES, STATEMENTS
 
@@ -27,7 +30,12 @@ def no_declaration(failure: Failure) -> Diagnostic | None:
         return _lost_line(failure, found)
     ours = OTHER_NAMES.get(found.lower()) or closest(found, DECLARATIONS)
     if ours is not None:
-        return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, f"did you mean `{ours}`?")
+        message, help, fix = (
+            f"`{found}` begins no declaration",
+            f"did you mean `{ours}`?",
+            _spelt(span, ours, DECLARATIONS),
+        )
+        return failure.finding(Code.SYNTAX, message, span, help, fix=fix)
     if re.search(r"\.[ \t]*(%.*)?$", failure.rest):
         return _prolog(failure)
     kinds = ", ".join(f"`{kind}`" for kind in DECLARATIONS[1:])
@@ -56,16 +64,27 @@ def _lost_line(failure: Failure, word: str) -> Diagnostic:
 def misspelt(failure: Failure) -> Diagnostic | None:
     """A name where only words can stand, or behind one that looks like a word."""
     if failure.kind == "NAME":
-        ours = closest(str(failure.bad), _words(failure.accepts))
-        if ours is not None:
-            return failure.finding(Code.SYNTAX, f"`{failure.bad}` is no word here", help=f"did you mean `{ours}`?")
+        found = _misspelt(failure, failure.bad, failure.accepts)
+        if found is not None:
+            return found
     last = failure.tokens[-1] if failure.tokens else None
     if last is None or last.type != "NAME" or str(last) in _words(failure.chosen_from):
         return None
-    ours = closest(str(last), _words(failure.chosen_from))
-    if ours is None:
+    return _misspelt(failure, last, failure.chosen_from)
+
+
+def _misspelt(failure: Failure, token: Token | None, accepts: frozenset[str]) -> Diagnostic | None:
+    words = _words(accepts)
+    ours = closest(str(token), words)
+    if token is None or ours is None:
         return None
-    return failure.finding(Code.SYNTAX, f"`{last}` is no word here", failure.span(last), f"did you mean `{ours}`?")
+    span, message = failure.span(token), f"`{token}` is no word here"
+    return failure.finding(Code.SYNTAX, message, span, f"did you mean `{ours}`?", fix=_spelt(span, ours, words))
+
+
+def _spelt(span: Span, ours: str, words: Iterable[str]) -> Fix | None:
+    """Our spelling, if no other word is close."""
+    return instead(span, ours) if _close(span.text, words) == [ours] else None
 
 
 def reserved(failure: Failure) -> Diagnostic | None:
@@ -94,11 +113,16 @@ AFTER = {
 
 def closest(word: str, words: Iterable[str]) -> str | None:
     """The word that was probably meant; short ones have to be nearer."""
+    found = _close(word, words)
+    return found[0] if found else None
+
+
+def _close(word: str, words: Iterable[str]) -> list[str]:
+    """The words that may have been meant, the closest first; those with the same letters exclude all others."""
     candidates, lower = list(words), word.lower()
     swapped = [candidate for candidate in candidates if sorted(candidate) == sorted(lower)]
-    near = difflib.get_close_matches(lower, candidates, n=1, cutoff=0.7 if len(word) > 3 else 0.8)
-    found = swapped or (near if len(word) > 2 else [])
-    return found[0] if found else None
+    near = difflib.get_close_matches(lower, candidates, n=3, cutoff=0.7 if len(word) > 3 else 0.8)
+    return swapped or (near if len(word) > 2 else [])
 
 
 def _words(terminals: Iterable[str]) -> list[str]:

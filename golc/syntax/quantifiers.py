@@ -8,6 +8,7 @@ from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Label
 from golc.syntax.failure import Failure
+from golc.syntax.fixes import sign_at
 from golc.syntax.layout import CLOSING, OPENING
 
 QUANTIFIERS = frozenset({"EXISTS", "FORALL", "COUNT", "SUM", "MIN", "MAX"})
@@ -31,6 +32,7 @@ def missing_dot(failure: Failure) -> Diagnostic | None:
             f"the dot behind the variables of `{quantifier}` is missing",
             failure.gap(),
             f"write `{quantifier} x: type. …`",
+            fix=sign_at(failure.here() if failure.rest[0] in ":|" else failure.gap(), "."),
         )
     if failure.kind == "LPAR" and {"COLON", "IN"} == failure.accepts and failure.tokens[-2].type == "COMMA":
         return failure.finding(
@@ -38,6 +40,7 @@ def missing_dot(failure: Failure) -> Diagnostic | None:
             f"a dot, not a comma, ends the variables of `{quantifier}`",
             failure.span(failure.tokens[-2]),
             f"write `{quantifier} x: type. …`",
+            fix=sign_at(failure.span(failure.tokens[-2]), "."),
         )
     return None
 

@@ -22,6 +22,11 @@ def recover(source: Source, findings: Findings) -> ast.File | None:
     if not pieces:
         _nothing(source, findings)
         return None
+    if _is_foreign(pieces):
+        message = "the domain line is missing, and nothing in the file begins as a declaration does"
+        help = "is this a file of golc? Such a file begins with a line such as `domain delivery`"
+        findings.error(Code.DOMAIN, message, _word_span(pieces[0]), help=help)
+        return None
     _check_domain(pieces, findings)
     # A name alone where the file begins is a domain line without its word, and that has been said.
     _merge(read[1:] if _only_name(pieces[0]) else read, findings)
@@ -77,6 +82,13 @@ def _check_domain(pieces: list[Piece], findings: Findings) -> None:
             help="a file describes one domain: remove the line, or `import` another file",
             labels=(Label(_word_span(headers[0]), "the first one"),),
         )
+
+
+def _is_foreign(pieces: list[Piece]) -> bool:
+    """Whether a text of some length has nothing of a file of golc."""
+    words = [_first_word(piece.part) for piece in pieces]
+    known = [*DECLARATIONS, "domain"]
+    return len(words) > 2 and not any(word in known or closest(word, known) for word in words)
 
 
 def _only_name(piece: Piece) -> str | None:

@@ -9,8 +9,9 @@ from lark import Token, UnexpectedInput
 from lark.lexer import LexerThread
 from lark.parsers.lalr_parser_state import ParserState
 
-from golc.diagnostics import Code, Diagnostic
+from golc.diagnostics import Code, Diagnostic, Fix, Span
 from golc.syntax.failure import LAYOUT, Failure
+from golc.syntax.fixes import sign_at, without
 from golc.syntax.layout import CLOSING, OPENING, LayoutError
 from golc.syntax.parser import parser
 from golc.syntax.terminals import TITLES, title, titles, word_of
@@ -21,6 +22,9 @@ SIGNS = ("COLON", "EQ", "ASSIGN", "COMMA", "RPAR", "RSQB", "RBRACE", "LPAR", "LB
 NAMED = ("NAME", "INT", "STRING")
 """What else may be missing, if no sign and no word helps."""
 
+CERTAIN = frozenset({"COLON", "EQ", "ASSIGN", "COMMA", "BY", "FROM", "WHERE"})
+"""What can stand nowhere else: of a bracket nobody knows where it was to be."""
+
 
 def repaired(failure: Failure) -> Diagnostic | None:
     """Something forgotten before the bad token, or the bad token one too many."""
@@ -29,13 +33,17 @@ def repaired(failure: Failure) -> Diagnostic | None:
     behind = failure.rest[len(failure.bad) :]
     twice = _twice(failure, behind)
     if twice is not None:
-        return failure.finding(Code.SYNTAX, f"`{twice}` is written twice", failure.span(twice), "remove one")
+        fix = Fix(f"remove one `{twice}`", (without(failure.span(twice)),))
+        return failure.finding(Code.SYNTAX, f"`{twice}` is written twice", failure.span(twice), "remove one", fix=fix)
     forgotten = _forgotten(failure)
-    if forgotten is not None:
+    if forgotten:
+        what = titles(forgotten) or "a word"
         end = failure.kind in LAYOUT or failure.kind == "$END"
         where = "at the end of the line" if end else f"before `{failure.bad}`"
         place = failure.at(failure.place, failure.place) if failure.begins_line() else failure.gap()
-        return failure.finding(Code.MISSING, f"{forgotten} is missing {where}", place, f"write {forgotten}")
+        return failure.finding(
+            Code.MISSING, f"{what} is missing {where}", place, f"write {what}", fix=_written(place, forgotten)
+        )
     if failure.kind not in LAYOUT | {"$END"} and _goes_on(failure, None, behind):
         return failure.finding(Code.SYNTAX, f"`{failure.bad}` is too much here", help="remove it")
     return None
@@ -51,18 +59,29 @@ def _twice(failure: Failure, behind: str) -> Token | None:
     return bad if repeats and _goes_on(failure, None, behind) else None
 
 
-def _forgotten(failure: Failure) -> str | None:
-    """The name of the sign, or the names of the words, with which the line can be read."""
-    rest = "" if failure.kind in LAYOUT | {"$END"} else failure.rest
+def _written(place: Span, forgotten: list[str]) -> Fix | None:
+    """What has been forgotten, where it is certain."""
+    return (
+        sign_at(place, title(forgotten[0]).strip("`")) if CERTAIN.issuperset(forgotten) and not forgotten[1:] else None
+    )
+
+
+def _forgotten(failure: Failure) -> list[str]:
+    """The terminals of which one lets the line be read: a sign, or words."""
     for sign in SIGNS:
-        if sign in failure.accepts and _goes_on(failure, sign, rest):
-            return title(sign)
+        if sign in failure.accepts and goes_on(failure, sign):
+            return [sign]
     words = sorted(terminal for terminal in failure.accepts if word_of(terminal) is not None)
     for terminals in (words, NAMED):
-        found = [t for t in terminals if t in failure.accepts and _goes_on(failure, t, rest)]
+        found = [t for t in terminals if t in failure.accepts and goes_on(failure, t)]
         if found:
-            return titles(found) or "a word"
-    return None
+            return found
+    return []
+
+
+def goes_on(failure: Failure, terminal: str) -> bool:
+    """Whether, with one more terminal, the rest of the line can be read."""
+    return _goes_on(failure, terminal, "" if failure.kind in LAYOUT | {"$END"} else failure.rest)
 
 
 def _goes_on(failure: Failure, inserted: str | None, rest: str) -> bool:

@@ -60,6 +60,12 @@ def _with_parameters(kind: Any) -> Rule:
     return build
 
 
+def _extern(b: Builder, span: Span, children: list[Any]) -> ast.Extern:
+    name, parameters, type_, path = children
+    b.declare(name)
+    return ast.Extern(name, _tuple(parameters), type_, b.plain(path), span=span)
+
+
 def _params(b: Builder, span: Span, children: list[Any]) -> tuple[ast.Parameter, ...]:
     b.declare_parts(tuple(children))
     return tuple(children)
@@ -226,6 +232,7 @@ RULES: dict[str, Rule] = {
     "const": _named(ast.Const),
     "type_decl": _named(ast.TypeDecl),
     "static": _with_parameters(ast.Static),
+    "extern": _extern,
     "fluent": _with_parameters(ast.Fluent),
     "define": _with_parameters(ast.Define),
     "proc": _with_parameters(ast.Proc),

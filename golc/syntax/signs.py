@@ -2,33 +2,37 @@
 
 from __future__ import annotations
 
+import re
+
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.failure import Failure, Hint
+from golc.syntax.fixes import instead, removal, sign_at
 from golc.syntax.layout import CLOSING
 
 OPERATORS = frozenset({"CMP", "EQ", "IN", "PLUS", "MINUS", "TIMES", "IDIV", "MOD"})
 VALUED = frozenset({"const", "type", "static", "fluent", "let"})
+LOOSE = re.compile(r"\b(or|implies|iff|if|exists|forall|count|sum|min|max)\b")
+"""What binds less tightly than ``and``, so that one in the place of a comma would take its operands from it."""
+
 CHANGED = {"define": "a definition", "causes": "an effect", "after": "an effect"}
 
 
 def wrong_sign(failure: Failure) -> Diagnostic | None:
     """``=`` for ``:=`` and the reverse, and either for a colon."""
     first = str(failure.line[0]) if failure.line else ""
+    here = failure.here()
     if failure.kind == "EQ" and "ASSIGN" in failure.accepts:
         what = CHANGED.get(first, "a change")
-        return failure.finding(Code.FOREIGN, f"`=` tests, `:=` changes: {what} is written with `:=`", help="write `:=`")
+        message, help = f"`=` tests, `:=` changes: {what} is written with `:=`", "write `:=`"
+        return failure.finding(Code.FOREIGN, message, help=help, fix=sign_at(here, ":="))
     if failure.kind == "ASSIGN" and "EQ" in failure.accepts:
+        message = "`:=` changes, `=` tests: a condition is written with `=`"
         if first in VALUED:
-            return failure.finding(
-                Code.FOREIGN, f"`:=` changes: the value of a `{first}` is written with `=`", help="write `=`"
-            )
-        return failure.finding(
-            Code.FOREIGN, "`:=` changes, `=` tests: a condition is written with `=`", help="write `=`"
-        )
+            message = f"`:=` changes: the value of a `{first}` is written with `=`"
+        return failure.finding(Code.FOREIGN, message, help="write `=`", fix=sign_at(here, "="))
     if failure.kind in ("EQ", "ASSIGN") and failure.accepts == {"COLON"}:
-        return failure.finding(
-            Code.FOREIGN, f"after the name of a `{first}` stands `:`, not `{failure.bad}`", help="write `:`"
-        )
+        message = f"after the name of a `{first}` stands `:`, not `{failure.bad}`"
+        return failure.finding(Code.FOREIGN, message, help="write `:`", fix=sign_at(here, ":"))
     named = len(failure.line) == 2 and first in ("const", "type", "let", "define")
     if failure.kind == "COLON" and failure.accepts & {"EQ", "ASSIGN"} and named:
         sign = "=" if "EQ" in failure.accepts else ":="
@@ -70,14 +74,17 @@ def last_comma(failure: Failure) -> Diagnostic | None:
     if failure.kind not in CLOSING or failure.previous is None or failure.previous.type != "COMMA":
         return None
     message = "a comma stands between two elements, not behind the last"
-    return failure.finding(Code.SYNTAX, message, failure.span(failure.previous), "remove it")
+    span = failure.span(failure.previous)
+    return failure.finding(Code.SYNTAX, message, span, "remove it", fix=removal(span))
 
 
 def comma(failure: Failure) -> Diagnostic | None:
     """``test a, b``."""
     if failure.kind != "COMMA" or "AND" not in failure.accepts:
         return None
-    return failure.finding(Code.SYNTAX, "a comma does not join conditions", help="write `and`")
+    around = [*map(str, failure.line), failure.rest]
+    fix = None if any(map(LOOSE.search, around)) else instead(failure.here(), "and")
+    return failure.finding(Code.SYNTAX, "a comma does not join conditions", help="write `and`", fix=fix)
 
 
 def computed_bound(failure: Failure) -> Diagnostic | None:

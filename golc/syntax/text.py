@@ -29,6 +29,12 @@ def read_source(path: str | Path, empty: str = DOMAIN_LINE) -> Source:
         raise _unreadable(name, _reason(error)) from None
 
 
+def read_domain(path: str | Path) -> Source:
+    """The text of a domain file, which fixes may change; raises ``UserError`` as ``read_source`` does."""
+    source = read_source(path)
+    return Source(source.name, source.text, editable=True)
+
+
 def read_stream(name: str, stream: BinaryIO, empty: str = DOMAIN_LINE) -> Source:
     """The text of an open file, as ``read_source`` has it."""
     data = stream.read(LARGEST + 1)

@@ -295,6 +295,16 @@ class Static(Node):
 
 
 @dataclass(frozen=True)
+class Extern(Node):
+    """A function of the Python file ``path``; without a type it is a relation (``bool``)."""
+
+    name: Ident
+    parameters: tuple[Parameter, ...]
+    type: Type | None
+    path: str
+
+
+@dataclass(frozen=True)
 class Fluent(Node):
     """Without a type it is relational (``bool``); a missing initial value is a finding of the checker."""
 
@@ -519,6 +529,7 @@ Declaration: TypeAlias = (
     | Const
     | TypeDecl
     | Static
+    | Extern
     | Fluent
     | Initially
     | Define

@@ -77,6 +77,8 @@ def _line(declaration: ast.Declaration) -> str:
         case ast.Static(type=type_, value=value):
             text = _table(value) if isinstance(value, ast.Table) else unparse_expression(value)
             return f"static {_head(declaration)}{_of_type(type_)} = {text}"
+        case ast.Extern(type=type_, path=path):
+            return f"extern {_head(declaration)}{_of_type(type_)} from {string(path)}"
         case ast.Fluent(type=type_, initial=initial):
             text = "" if initial is None else f" = {unparse_expression(initial)}"
             return f"fluent {_head(declaration)}{_of_type(type_)}{text}"
@@ -96,7 +98,7 @@ def _line(declaration: ast.Declaration) -> str:
             raise TypeError(f"{declaration!r} is no declaration")
 
 
-def _head(declaration: ast.Static | ast.Fluent | ast.Define | ast.Action | ast.Exog | ast.Proc) -> str:
+def _head(declaration: ast.Static | ast.Extern | ast.Fluent | ast.Define | ast.Action | ast.Exog | ast.Proc) -> str:
     parameters = declaration.parameters
     return declaration.name.text + (f"({', '.join(map(_parameter, parameters))})" if parameters else "")
 

@@ -9,7 +9,8 @@ from collections.abc import Callable, Sequence
 from fractions import Fraction
 from typing import Any
 
-from golc.diagnostics import NOWHERE, ProgramError, Span
+from golc.diagnostics import NOWHERE, Diagnostic, ProgramError, Span
+from golc.theory.errors import ExternError
 from golc.theory.evaluate import Env, Evaluator
 from golc.theory.operations import apply
 from golc.theory.terms import FluentTerm, Operation, Operator, PossTerm, Term
@@ -25,12 +26,16 @@ eat all memory."""
 
 
 class NoValueError(Exception):
-    """A closed term has no value: why (nothing, if it has been said already), and which part of it is to blame."""
+    """A closed term has no value: why (nothing, if it has been said already), and which part of it is to blame.
 
-    def __init__(self, reason: str, span: Span) -> None:
+    ``finding`` is given if it says all, whatever the value is for.
+    """
+
+    def __init__(self, reason: str, span: Span, finding: Diagnostic | None = None) -> None:
         super().__init__(reason)
         self.reason = reason
         self.span = span
+        self.finding = finding
 
 
 class Closed(Evaluator[None]):
@@ -54,7 +59,9 @@ class Closed(Evaluator[None]):
         try:
             return self.evaluate(term, None, env)
         except ProgramError as error:
-            raise NoValueError(error.diagnostic.message, error.diagnostic.span) from None
+            found = error.diagnostic
+            finding = found if isinstance(error, ExternError) else None
+            raise NoValueError(found.message, found.span, finding) from None
 
     def static(self, name: str) -> Static:
         found = self._found_static(name)

@@ -7,18 +7,25 @@ while it is being resolved depends on itself.
 from __future__ import annotations
 
 import itertools
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+import re
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
 from typing import Protocol, TypeAlias
 
 from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Source, Span
 from golc.syntax import tree
+from golc.theory.blame import Blame, Matter, Suspect, also, inside
 from golc.theory.closed import Closed
 from golc.theory.declare import Declared
-from golc.theory.scope import Entry, Names
+from golc.theory.python_file import PythonFiles
+from golc.theory.scope import Entry, Kind, Names, Suggestion
 from golc.theory.terms import Literal
 from golc.theory.theory import Constant, Definition, Parameter, Static
 from golc.theory.types import Type
+
+WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_TYPE_FAULTS = (Code.TYPE_MISMATCH, Code.NO_INITIAL, Code.TABLE)
 
 
 @dataclass(frozen=True)
@@ -47,7 +54,8 @@ class Constants(Protocol):
 
 @dataclass
 class Context:
-    """The state of an elaboration. ``resolvers`` and ``constants`` come from the rooms that know how."""
+    """The state of an elaboration. ``resolvers`` and ``constants`` come from the rooms that know how;
+    ``python`` has the files that it may call."""
 
     source: Source
     declared: Declared
@@ -55,15 +63,20 @@ class Context:
     overrides: Mapping[str, str]
     resolvers: Mapping[str, Resolver]
     constants: Constants
+    python: PythonFiles
     device_names: tuple[str, ...] = ()
     inline_types: dict[int, Type] = field(default_factory=dict)
     """The enumerations that stand in place of a type's name and declare their symbols, by the identity of the node."""
+    gaps: bool = False
+    """Whether a value is missing that nothing is wrong with: it would take Python code that is not executed."""
     situational: dict[str, bool] = field(default_factory=dict)
     """Whether a definition depends on the situation, as far as somebody has asked."""
     _resolved: dict[tuple[str, Entry], Resolved] = field(default_factory=dict)
     _closed: Closed | None = None
     _active: dict[tuple[str, Entry], None] = field(default_factory=dict)
-    _missing: dict[tuple[Code, str], list[Diagnostic]] = field(default_factory=dict)
+    blame: Blame = field(default_factory=Blame)
+    _missing: dict[tuple[str, str], list[Diagnostic]] = field(default_factory=dict)
+    _words: Counter[str] | None = None
 
     @property
     def names(self) -> Names:
@@ -142,37 +155,92 @@ class Context:
         marker: str = "",
         help: str | None = None,
         labels: tuple[Label, ...] = (),
+        suspects: Iterable[Suspect] = (),
     ) -> None:
-        self.findings.error(code, message, span, marker, help, labels)
+        """A finding; ``suspects`` are declarations whose fault it may be."""
+        finding = Diagnostic(code, message, span, Severity.ERROR, marker, labels, help=help)
+        self.findings.add(finding)
+        self.blame.accuse(finding, suspects)
+
+    def misspelt(self, code: Code, name: Span, similar: Suggestion) -> None:
+        """A name that is declared nowhere, but one like it is."""
+        suspects = [Suspect(Matter.NAME, label.span) for label in similar.labels if self._is_spare(similar.name)]
+        message = f"unknown {similar.kind} `{name.text}`"
+        self.error(code, message, name, "not declared", similar.help, similar.labels, suspects)
+
+    def _is_spare(self, name: str) -> bool:
+        """Whether a name stands nowhere but in its declaration."""
+        if self._words is None:
+            texts = {id(entry.span.source): entry.span.source.text for entry in self.names.values.entries.values()}
+            texts[id(self.source)] = self.source.text
+            self._words = Counter(word for text in texts.values() for word in WORD.findall(text))
+        return self._words[name] == 1
+
+    def clear(self, suspects: Iterable[Suspect]) -> None:
+        """Somebody uses these declarations as they are."""
+        self.blame.cleared.update(suspects)
 
     def missing(self, code: Code, message: str, span: Span, help: str) -> None:
         """A name that is declared nowhere and is like no other: one finding, however often it is used."""
+        if self.names.nameless:
+            return  # it may be the name that is missing in a declaration
         finding = Diagnostic(code, message, span, Severity.ERROR, "not declared", help=help)
-        self._missing.setdefault((code, span.text or message), []).append(finding)
+        space = "action" if code is Code.UNKNOWN_ACTION else "value"
+        self._missing.setdefault((space, span.text or message), []).append(finding)
 
     def finish(self) -> None:
-        """Report what could only be known at the end."""
+        """Report what could only be known at the end, and leave out what is only a consequence."""
+        self._merge_missing()
         for uses in self._missing.values():
+            first, rest = uses[0], uses[1:]
+            self.findings.add(replace(first, notes=also([first, *rest])))
+        wrong = self._wrong(_TYPE_FAULTS)
+        faulty = [Suspect(matter, entry.span) for entry in wrong for matter in _untyped(entry.node)]
+        faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE,))]
+        self.findings.diagnostics[:] = self.blame.settle(self.findings.diagnostics, faulty)
+
+    def _merge_missing(self) -> None:
+        """Sort the uses of each missing name. A use that is like some other name is one of them all the same; and
+        what is missing inside a declaration to which nothing gives so few arguments is its parameters."""
+        short = self.blame.contradicted(Matter.ARITY)
+        bodies = [entry.node.span for entry in self._declarations() if entry.span in short]
+        for key, uses in [*self._missing.items()]:
+            if key[0] == "value":
+                uses += [use for use in self.findings.diagnostics if _is_unknown(use) and use.span.text == key[1]]
+                known = {id(use) for use in uses}
+                self.findings.diagnostics[:] = [d for d in self.findings.diagnostics if id(d) not in known]
+            uses[:] = [use for use in uses if not any(inside(use, body) for body in bodies)]
             uses.sort(key=lambda finding: (finding.span.source.name, finding.span.start))
-            first = uses[0]
-            lines = [*dict.fromkeys(_line(use.span, first.span.source) for use in uses[1:])]
-            also = (
-                f"also used in line{'s' * (len(lines) > 1)} {', '.join(lines[:10])}{', …' if len(lines) > 10 else ''}"
-            )
-            self.findings.add(
-                Diagnostic(
-                    first.code,
-                    first.message,
-                    first.span,
-                    marker=first.marker,
-                    notes=(also,) if lines else (),
-                    help=first.help,
-                )
-            )
+            if not uses:
+                del self._missing[key]
+
+    def _declarations(self) -> list[Entry]:
+        return [entry for space in (self.names.values, self.names.doings) for entry in space.entries.values()]
+
+    def _wrong(self, codes: tuple[Code, ...]) -> list[Entry]:
+        """The declarations of values that have a finding of their own with one of some codes."""
+        found = [finding for finding in self.findings.diagnostics if finding.code in codes]
+        kinds = (Kind.FLUENT, Kind.STATIC, Kind.EXTERN, Kind.DEFINITION)
+        return [
+            entry
+            for entry in (self.names.values.of(*kinds) if found else ())
+            if any(inside(finding, entry.node.span) for finding in found)
+        ]
 
 
-def _line(span: Span, source: Source) -> str:
-    return str(span.line) if span.source is source else f"{span.line} of {span.source.name}"
+def _untyped(node: tree.Node) -> tuple[Matter, ...]:
+    """What a declaration with a finding has probably left out: its type, or the ``?`` behind it."""
+    match node:
+        case tree.Fluent(type=None) | tree.Static(type=None) | tree.Extern(type=None):
+            return Matter.TYPE, Matter.NONE
+        case tree.Fluent(initial=tree.Nothing()):
+            return (Matter.NONE,)
+        case _:
+            return ()
+
+
+def _is_unknown(finding: Diagnostic) -> bool:
+    return finding.code in (Code.UNKNOWN_NAME, Code.UNKNOWN_TYPE)
 
 
 def first_line(span: Span) -> Span:

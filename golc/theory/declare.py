@@ -63,6 +63,8 @@ class _Collector:
                 self._value(Kind.TYPE, node.name, 0, node)
             case tree.Fluent():
                 self._value(Kind.FLUENT, node.name, len(node.parameters), node)
+            case tree.Extern():
+                self._value(Kind.EXTERN, node.name, len(node.parameters), node)
             case tree.Static():
                 self._value(Kind.STATIC, node.name, len(node.parameters), node)
             case tree.Define():

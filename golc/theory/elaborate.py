@@ -19,16 +19,18 @@ from golc.theory import elaborate_statements as programs
 from golc.theory import elaborate_types as types
 from golc.theory import elaborate_values as values
 from golc.theory.calls import circular, substatements
-from golc.theory.context import Context, Resolver, Signature
+from golc.theory.context import WORD, Context, Resolver, Signature
 from golc.theory.declare import declare
 from golc.theory.elaborate_axioms import with_axioms
 from golc.theory.elaborate_devices import device_name, devices
 from golc.theory.elaborate_knowledge import check_initially, initially
 from golc.theory.elaborate_prunes import prunes
 from golc.theory.elaborate_scenarios import scenarios
+from golc.theory.python_file import PythonFiles
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
+from golc.theory.suggest import closest
 from golc.theory.terms import DefinedTerm, PossTerm, Term, subterms
 from golc.theory.theory import (
     Action,
@@ -44,6 +46,11 @@ from golc.theory.unfolding import check_unfolding
 
 T = TypeVar("T")
 
+_NAMELESS = re.compile(
+    r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal)[ \t]*(?:[^A-Za-z \t]|from\b))"
+)
+"""The beginning of an import, or of a declaration whose name is missing."""
+
 
 def elaborate(
     file: tree.File,
@@ -51,23 +58,25 @@ def elaborate(
     findings: Findings,
     constants: Mapping[str, str] | None = None,
     sources: Sequence[Source] = (),
+    trust: bool = False,
 ) -> BasicActionTheory | None:
     """The theory that a file describes, or None if it has errors; every finding is added to ``findings``.
 
     ``constants`` are values of consts as texts, which replace those in the file (``-D``). ``sources`` are all sources
-    of a file with imports, which have been joined. If there are errors among
+    of a file with imports, which have been joined. ``trust``: Python code may be executed; without it there is no
+    theory, only notes, if a value in its declarations takes that. If there are errors among
     ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
     """
-    assumed: frozenset[str] = frozenset()
-    if findings.has_errors:
-        assumed = assumed.union(*[_unread(file, each) for each in sources or (source,)])
+    unread = [text for each in sources or (source,) for text in _unread(file, each)] if findings.has_errors else []
+    assumed = frozenset([word for text in unread for word in WORD.findall(text)])
+    nameless = any(map(_brings_a_name, unread))
     found = Findings()
     if not findings.has_errors:
         _no_imports(file, found)
     theory = None
     try:
         with deep_recursion():
-            theory = _elaborate(file, source, found, constants or {}, assumed)
+            theory = _elaborate(file, source, found, constants or {}, assumed, nameless, PythonFiles(trust))
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
@@ -84,21 +93,30 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
-def _unread(file: tree.File, source: Source) -> frozenset[str]:
-    """Every word in the parts of a text that could not be read."""
+def _unread(file: tree.File, source: Source) -> list[str]:
+    """The parts of a text that could not be read."""
     read = {declaration.span.start for declaration in file.declarations if declaration.span.source is source}
-    words: set[str] = set()
-    for chunk in split(source.text):
-        if chunk.start not in read:
-            words.update(re.findall(r"[A-Za-z][A-Za-z0-9_]*", source.text[chunk.start : chunk.end]))
-    return frozenset(words)
+    return [source.text[chunk.start : chunk.end] for chunk in split(source.text) if chunk.start not in read]
+
+
+def _brings_a_name(unread: str) -> bool:
+    """Whether a declaration would bring a name that does not stand in it: it has none, or it is an import."""
+    first = WORD.match(unread)
+    return _NAMELESS.match(unread) is not None or (first is not None and closest(first[0], ["import"]) is not None)
 
 
 def _elaborate(
-    file: tree.File, source: Source, findings: Findings, constants: Mapping[str, str], assumed: frozenset[str]
-) -> BasicActionTheory:
+    file: tree.File,
+    source: Source,
+    findings: Findings,
+    constants: Mapping[str, str],
+    assumed: frozenset[str],
+    nameless: bool,
+    python: PythonFiles,
+) -> BasicActionTheory | None:
     declared = declare(file, findings, assumed)
-    context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value)
+    declared.names.nameless = nameless
+    context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value, python)
     blocks = [node for node in file.declarations if isinstance(node, tree.Device)]
     context.device_names = tuple([device_name(node) for node in blocks])
     values.check_overrides(context)
@@ -124,12 +142,13 @@ def _elaborate(
         scenarios(context, [node for node in file.declarations if isinstance(node, tree.Scenario)]),
         initially(context, [node for node in file.declarations if isinstance(node, tree.Initially)]),
         prunes(context, [node for node in file.declarations if isinstance(node, tree.Prune | tree.PruneAfter)]),
+        context.python,
     )
     if not _has_circles(context, theory):
         check_unfolding(context, theory)
     check_initially(context, theory)
     context.finish()
-    return theory
+    return None if context.gaps else theory
 
 
 class _Builder:
@@ -157,7 +176,7 @@ class _Builder:
                 _keep(self.constants, entry, context.constant(entry))
             case Kind.TYPE:
                 _keep(self.types, entry, context.type(entry))
-            case Kind.STATIC:
+            case Kind.STATIC | Kind.EXTERN:
                 _keep(self.statics, entry, context.static(entry))
             case Kind.FLUENT:
                 _keep(self.fluents, entry, actions.fluent(context, entry))
@@ -221,7 +240,7 @@ def _signature(context: Context, entry: Entry) -> Signature | None:
     match entry.kind:
         case Kind.FLUENT:
             return actions.fluent_signature(context, entry)
-        case Kind.STATIC:
+        case Kind.STATIC | Kind.EXTERN:
             return values.static_signature(context, entry)
         case Kind.DEFINITION | Kind.GOAL | Kind.INVARIANT:
             return actions.definition_signature(context, entry)

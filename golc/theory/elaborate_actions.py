@@ -207,7 +207,8 @@ def _effect(context: Context, scope: Scope, node: tree.Effect) -> tuple[Effect, 
         for arg in node.target.args:
             term(context, inner, arg)
     type_ = BROKEN if signature is None else signature.type
-    value = new_value(context, inner, node.value, type_, f"fluent `{node.target.name.text}`")
+    declared = None if signature is None else signature.entry.span
+    value = new_value(context, inner, node.value, type_, f"fluent `{node.target.name.text}`", declared)
     condition = None if node.condition is None else formula(context, inner, node.condition, "`when`")
     if signature is None or args is None or value is None:
         return ()

@@ -142,7 +142,8 @@ class _Axiom:
         node, fluent = line.node, self.signature.entry.name
         heads, binders = self.head_variables(line)
         case = self.case(line, line, heads)
-        value = new_value(self.context, case.scope, node.value, self.signature.type, f"fluent `{fluent}`")
+        declared = self.signature.entry.span
+        value = new_value(self.context, case.scope, node.value, self.signature.type, f"fluent `{fluent}`", declared)
         if value is None or any(term.type is BROKEN for term in (*case.conditions(), value)):
             return None
         conditions = [*case.demands]

@@ -218,8 +218,7 @@ def _unknown_arg(context: Context, node: tree.Ident, parameter: Parameter) -> No
         message = f"`{node.text}` is neither a constant nor a parameter with its type"
         context.error(Code.BINDING, message, node.span, "not a constant", help_)
     else:
-        message = f"unknown {similar.kind} `{node.text}`"
-        context.error(Code.UNKNOWN_NAME, message, node.span, "not declared", similar.help, similar.labels)
+        context.misspelt(Code.UNKNOWN_NAME, node.span, similar)
 
 
 def _part_of(type_: Type, whole: Type) -> bool:

@@ -18,16 +18,18 @@ from golc.theory.theory import BasicActionTheory
 from golc.theory.types import BOOL, Collection, Type
 
 
-def new_value(context: Context, scope: Scope, node: tree.ValueExpr, type_: Type, what: str) -> Term | Choice | None:
+def new_value(
+    context: Context, scope: Scope, node: tree.ValueExpr, type_: Type, what: str, declared: Span | None = None
+) -> Term | Choice | None:
     """What a fluent of a type is set to, in the beginning or by an effect; none, and a finding, if it is a choice that
-    has no meaning. ``what`` names the fluent."""
+    has no meaning. ``what`` names the fluent, and ``declared`` is the place of its name."""
     match node:
         case tree.Unknown():
             return _unknown(context, type_, node.span, what)
         case tree.OneOf():
             return _one_of(context, scope, node, type_, what)
         case _:
-            return fitting(context, scope, node, type_, what)
+            return fitting(context, scope, node, type_, what, declared)
 
 
 def _unknown(context: Context, type_: Type, span: Span, what: str) -> Choice | None:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TypeAlias
 
-from golc.diagnostics import Code, Label
+from golc.diagnostics import Code, Edit, Fix, Label
 from golc.syntax import tree
+from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context, Signature
 from golc.theory.declare import BUILTIN_TYPES
 from golc.theory.elaborate_types import LARGEST, home, named_type
@@ -15,7 +16,7 @@ from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import Literal, Variable
 from golc.theory.types import BOOL, Collection, Enumeration, Type, show
 
-CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.GOAL, Kind.INVARIANT)
+CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.EXTERN, Kind.GOAL, Kind.INVARIANT)
 TERMS = (*CALLS, Kind.CONSTANT, Kind.SYMBOL)
 
 Resolution: TypeAlias = Variable | Literal | Signature | None
@@ -99,13 +100,16 @@ def is_misspelt_type(context: Context, scope: Scope, name: tree.Ident) -> bool:
 
 def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding, entry: Entry, given: int) -> bool:
     """Whether something gets as many arguments as it takes; otherwise a finding."""
+    suspect = Suspect(Matter.ARITY, entry.span)
     if given == entry.arity:
+        context.clear([suspect])
         return True
     name = node.name if isinstance(node, tree.Apply) else node.action
     takes = f"{entry.arity} argument{'s' * (entry.arity != 1)}" if entry.arity else "no arguments"
     labels = (Label(entry.span, f"{entry.kind.phrase} with {takes} is declared here"),)
     marker = f"{given} argument{'s' * (given != 1)} here" if given else "no arguments here"
-    context.error(Code.ARITY, f"`{name.text}` takes {takes}, not {given or 'none'}", name.span, marker, labels=labels)
+    message = f"`{name.text}` takes {takes}, not {given or 'none'}"
+    context.error(Code.ARITY, message, name.span, marker, labels=labels, suspects=[suspect])
     return False
 
 
@@ -127,8 +131,7 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
         help_ = f"declare it: `action {name.text}`" + (f", or `proc {name.text}: …`" if Kind.PROCEDURE in kinds else "")
         context.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
         return None
-    message = f"unknown {similar.kind} `{name.text}`"
-    context.error(Code.UNKNOWN_ACTION, message, name.span, "not declared", similar.help, similar.labels)
+    context.misspelt(Code.UNKNOWN_ACTION, name.span, similar)
     return None
 
 
@@ -147,7 +150,7 @@ def unknown_fluent(context: Context, name: tree.Ident, given: int) -> None:
     if similar is None:
         context.missing(Code.UNKNOWN_NAME, message, name.span, f"declare it: `fluent {name.text}… = …`")
     else:
-        context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", similar.help, similar.labels)
+        context.misspelt(Code.UNKNOWN_NAME, name.span, similar)
 
 
 def _no_arguments(context: Context, node: tree.Apply, what: str, entry: Entry | None) -> None:
@@ -173,14 +176,25 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     variables = () if given else tuple(scope.locals)
     similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
+    if similar is None and not given and name.text.lower() in ("true", "false", "none", "null"):
+        _capital(context, name)
+        return
     if similar is None and hint is BROKEN and not given:
         return  # probably a value of the type that is missing, which has been said
     if similar is None:
         what, help_ = ("fluent", f"declare it: `fluent {name.text}(…) = …`") if given else ("name", _declare(name.text))
         context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
     else:
-        message = f"unknown {similar.kind} `{name.text}`"
-        context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", similar.help, similar.labels)
+        context.misspelt(Code.UNKNOWN_NAME, name.span, similar)
+
+
+def _capital(context: Context, name: tree.Ident) -> None:
+    """Python's ``True``, ``False`` and ``None``, and other languages' ``null``."""
+    ours = name.text.lower().replace("null", "none")
+    fix = Fix(f"write `{ours}` for `{name.text}`", (Edit(name.span, ours),))
+    small = ours == name.text.lower()
+    message = f"`{ours}` is written in small letters" if small else f"“no value” is `{ours}`, not `{name.text}`"
+    context.findings.error(Code.FOREIGN, message, name.span, "not declared", f"write `{ours}`", fix=fix)
 
 
 def _declare(name: str) -> str:

@@ -15,6 +15,7 @@ from golc.theory.fitting import BROKEN, describe, includes, overlap
 from golc.theory.relations import equality
 from golc.theory.scope import Kind, Local, Scope
 from golc.theory.terms import Membership, Operation, Operator, Term, Variable
+from golc.theory.theory import Parameter
 from golc.theory.types import BOOL
 
 
@@ -48,13 +49,13 @@ def matching(context: Context, pattern: tree.Pattern, action: Signature, known: 
     bound = dict(known)
     demands: list[Term] = []
     for place, (arg, parameter) in enumerate(zip(pattern.args, action.parameters, strict=True)):
-        given = Variable(place, parameter.name, type=parameter.type, span=arg.span)
+        given = Variable(place, parameter.name, type=parameter.type, span=arg.span, bound=parameter.span)
         if isinstance(arg, tree.Ident) and _is_new(context, arg.text, bound):
             bound[arg.text] = Local(given, arg.span)
         elif isinstance(arg, tree.Ident) and arg.text in bound:
             demands += _same(context, given, bound[arg.text].variable, arg)
         else:
-            demands.append(_constant(context, given, arg, f"parameter `{parameter.name}` of `{action.entry.name}`"))
+            demands.append(_constant(context, given, arg, parameter, action.entry.name))
     return Match(bound, tuple(demands))
 
 
@@ -84,8 +85,13 @@ def _same(context: Context, given: Variable, other: Variable, arg: tree.Ident) -
 
 
 def _constant(
-    context: Context, given: Variable, arg: tree.Ident | tree.Number | tree.Truth | tree.Nothing, what: str
+    context: Context,
+    given: Variable,
+    arg: tree.Ident | tree.Number | tree.Truth | tree.Nothing,
+    parameter: Parameter,
+    action: str,
 ) -> Term:
     node: tree.Expr = tree.Apply(arg, (), span=arg.span) if isinstance(arg, tree.Ident) else arg
-    value = fitting(context, Scope(), node, given.type, what)
+    what = f"parameter `{parameter.name}` of `{action}`"
+    value = fitting(context, Scope(), node, given.type, what, parameter.span)
     return equality(context, Operator.EQUAL, given, value, arg.span)

@@ -76,10 +76,12 @@ def formula(context: Context, scope: Scope, node: tree.Expr, what: str) -> Term:
     return fitting(context, scope, node, BOOL, what)
 
 
-def fitting(context: Context, scope: Scope, node: tree.Expr, needed: Type, what: str) -> Term:
-    """A term whose values may be of a type; ``what`` says for what it is needed."""
+def fitting(
+    context: Context, scope: Scope, node: tree.Expr, needed: Type, what: str, declared: Span | None = None
+) -> Term:
+    """A term whose values may be of a type; ``what`` and ``declared`` are as for ``fits``."""
     found = term(context, scope, node, needed)
-    return found if fits(context, found, needed, what) else broken(node.span)
+    return found if fits(context, found, needed, what, declared) else broken(node.span)
 
 
 def term(context: Context, scope: Scope, node: tree.Expr, hint: Type | None = None) -> Term:
@@ -134,7 +136,7 @@ def _apply(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) 
     found = resolve(context, scope, node, hint)
     match found:
         case Variable():
-            return Variable(found.level, found.name, type=found.type, span=node.span)
+            return Variable(found.level, found.name, type=found.type, span=node.span, bound=found.bound)
         case Literal():
             return found
         case Signature():
@@ -151,7 +153,7 @@ def _called(signature: Signature, args: tuple[Term, ...], span: Span) -> Term:
     match signature.entry.kind:
         case Kind.FLUENT:
             return FluentTerm(name, args, type=signature.type, span=span)
-        case Kind.STATIC:
+        case Kind.STATIC | Kind.EXTERN:
             return StaticTerm(name, args, type=signature.type, span=span)
         case _:
             return DefinedTerm(name, args, type=signature.type, span=span)
@@ -166,7 +168,7 @@ def arguments(context: Context, scope: Scope, node: tree.Apply, signature: Signa
     name = node.name.text
     return tuple(
         [
-            fitting(context, scope, arg, parameter.type, f"parameter `{parameter.name}` of `{name}`")
+            fitting(context, scope, arg, parameter.type, f"parameter `{parameter.name}` of `{name}`", parameter.span)
             for arg, parameter in zip(node.args, signature.parameters, strict=True)
         ]
     )

@@ -89,7 +89,7 @@ def unknown_type(context: Context, name: tree.Ident) -> None:
     if similar is None:
         context.missing(Code.UNKNOWN_TYPE, message, name.span, f"declare it: `type {name.text} = …`")
     else:
-        context.error(Code.UNKNOWN_TYPE, message, name.span, "not declared", similar.help, similar.labels)
+        context.misspelt(Code.UNKNOWN_TYPE, name.span, similar)
 
 
 def home(context: Context, entry: Entry) -> Type:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
+from pathlib import Path
 
 from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree
+from golc.theory.border import PythonFunction
 from golc.theory.closed import NoValueError
 from golc.theory.context import Context, Signature
 from golc.theory.elaborate_collections import determined
@@ -14,6 +16,7 @@ from golc.theory.elaborate_terms import term
 from golc.theory.elaborate_types import elaborate_type, parameters
 from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN, describe, may_be, size
+from golc.theory.python_text import misfit
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, Literal, PossTerm, Term, subterms
 from golc.theory.theory import Constant, Parameter, Static
@@ -85,7 +88,10 @@ def evaluated(context: Context, found: Term) -> Literal | None:
     try:
         return Literal(closed.value(found), type=found.type, span=found.span)
     except NoValueError as error:
-        if error.reason:
+        if error.finding is not None:
+            context.findings.once(error.finding)
+            context.gaps = True
+        elif error.reason:
             context.error(Code.NO_VALUE, f"this has no value: {error.reason}", error.span)
     except RecursionError:
         context.error(Code.NO_VALUE, "this has no value: it is nested too deeply to be evaluated", found.span)
@@ -124,28 +130,41 @@ def _override(context: Context, name: str, hint: Type) -> Literal | None:
 
 
 def static_signature(context: Context, entry: Entry) -> Signature:
-    """The parameters and the type of a static; without a type it is a relation."""
-    assert isinstance(entry.node, tree.Static)
-    table = isinstance(entry.node.value, tree.Table)
-    found = parameters(context, entry.node.parameters, f"static `{entry.name}`", infinite=not table)
+    """The parameters and the type of a static or an extern; without a type it is a relation."""
+    assert isinstance(entry.node, tree.Static | tree.Extern)
+    table = isinstance(entry.node, tree.Static) and isinstance(entry.node.value, tree.Table)
+    what = f"{entry.kind.value} `{entry.name}`"
+    found = parameters(context, entry.node.parameters, what, infinite=not table)
     type_ = BOOL if entry.node.type is None else elaborate_type(context, entry.node.type)
     return Signature(entry, found, type_)
 
 
 def static(context: Context, entry: Entry) -> Static | None:
-    """A static with its body: a term, a table, or the value if it has no parameters."""
-    assert isinstance(entry.node, tree.Static)
+    """A static with its body: a term, a table, the value if it has no parameters, or for an extern its function."""
+    assert isinstance(entry.node, tree.Static | tree.Extern)
     signature = context.signature(entry)
     if signature is None:
         return None
-    body: Term | Mapping[tuple[Value, ...], Value] | None
-    if isinstance(entry.node.value, tree.Table):
+    body: Term | Mapping[tuple[Value, ...], Value] | PythonFunction | None
+    if isinstance(entry.node, tree.Extern):
+        body = _python_function(context, signature, entry.node)
+    elif isinstance(entry.node.value, tree.Table):
         body = _table(context, signature, entry.node.value)
     else:
         body = _static_body(context, signature, entry.node, entry.node.value)
     if body is None:
         return None
     return Static(entry.name, signature.parameters, signature.type, body, span=entry.span)
+
+
+def _python_function(context: Context, signature: Signature, node: tree.Extern) -> PythonFunction | None:
+    parameter_scope(context, signature.parameters, node.parameters)
+    file = context.python.file(Path(node.span.source.name).parent / node.path)
+    problem = misfit(file, node.name.text, len(node.parameters))
+    if problem is None:
+        return PythonFunction(node.path, file)
+    context.findings.add(problem.finding(node.name.span))
+    return None
 
 
 def _static_body(context: Context, signature: Signature, node: tree.Static, expression: tree.Expr) -> Term | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from golc.diagnostics import Code, Diagnostic, ProgramError, Span, counted
+from golc.diagnostics import Code, Diagnostic, Label, ProgramError, Severity, Span, counted
 from golc.theory.fitting import collection, describe
 from golc.theory.order import elements
 from golc.theory.types import Number, Type, Value, show
@@ -92,6 +92,32 @@ def too_large(span: Span, what: str, limit: str) -> ProgramError:
     """A number or a collection that would fill the memory sooner or later."""
     message = f"{what} grows too large: golc goes up to {limit}"
     return ProgramError(Diagnostic(Code.TOO_LARGE, message, span, marker="too large here"))
+
+
+class ExternError(ProgramError):
+    """A Python function has no value that could be used. What is said of it says all: nobody has to say it again."""
+
+
+class NotExecutedError(ExternError):
+    """A Python function would have to be called, and nobody has said that it may: ``why`` names them."""
+
+    def __init__(self, diagnostic: Diagnostic, why: str) -> None:
+        super().__init__(diagnostic)
+        self.why = why
+
+
+def extern_failed(span: Span, message: str, labels: tuple[Label, ...], help: str | None) -> ExternError:
+    """A Python function fails, or gives what is not of its type; ``labels`` show the line of its file."""
+    return ExternError(Diagnostic(Code.EXTERN, message, span, marker="called here", labels=labels, help=help))
+
+
+def not_executed(span: Span, name: str, why: str) -> NotExecutedError:
+    """A value depends on a Python function in a file that is not trusted."""
+    why = f"it depends on `{name}`, and {why}"
+    message = f"this has no value yet: {why}"
+    help_ = "`--trust` executes it"
+    finding = Diagnostic(Code.NOT_EXECUTED, message, span, Severity.NOTE, "a function of Python", help=help_)
+    return NotExecutedError(finding, why)
 
 
 class UndecidedError(ProgramError):

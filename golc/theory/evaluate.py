@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Generic, TypeAlias, TypeVar, cast
 
 from golc.theory import errors
+from golc.theory.border import PythonFunction, extern_value
 from golc.theory.operations import apply, takes_none
 from golc.theory.order import arranged, elements
 from golc.theory.terms import (
@@ -192,6 +193,8 @@ class Evaluator(Generic[S]):
         args = self.arguments(term.static, static.parameters, term.args, situation, env)
         if isinstance(static.body, Mapping):
             return static.body[args]
+        if isinstance(static.body, PythonFunction):
+            return extern_value(static, args, term.span)
         if (term.static, args) in self._statics:
             return self._statics[term.static, args]
         if self.depth >= DEPTH:

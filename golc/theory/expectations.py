@@ -3,9 +3,22 @@
 from __future__ import annotations
 
 from golc.diagnostics import Code, Span
+from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context
 from golc.theory.fitting import BROKEN, collection, describe, may_be, overlap, strip_optional
-from golc.theory.terms import Comprehension, Display, Literal, Operation, Operator, Quantified, Term
+from golc.theory.terms import (
+    Comprehension,
+    DefinedTerm,
+    Display,
+    FluentTerm,
+    Literal,
+    Operation,
+    Operator,
+    Quantified,
+    StaticTerm,
+    Term,
+    Variable,
+)
 from golc.theory.types import BOOL, NONE, REAL, STRING, Type, show
 
 AGGREGATES = ("`sum`", "`min`", "`max`")
@@ -16,8 +29,11 @@ def broken(span: Span) -> Term:
     return Literal(None, type=BROKEN, span=span)
 
 
-def fits(context: Context, found: Term, needed: Type, what: str) -> bool:
-    """Whether a term may have a value of a type; otherwise a finding. Constants have to be values of it."""
+def fits(context: Context, found: Term, needed: Type, what: str, declared: Span | None = None) -> bool:
+    """Whether a term may have a value of a type; otherwise a finding. Constants have to be values of it.
+
+    ``what`` says for what it is needed, and ``declared`` is the place of the name that has the type, if there is one.
+    """
     stack, good = [(found, needed, what)], True
     while stack:
         part, wanted, place = stack.pop()
@@ -26,14 +42,33 @@ def fits(context: Context, found: Term, needed: Type, what: str) -> bool:
             place = place if wanted_inside == wanted else f"an element of {place}"
             stack.extend([(each, wanted_inside, place) for each in reversed(inside)])
         elif not may_be(part.type, wanted):
-            mismatch(context, part, describe(wanted), place, cure(part, wanted))
+            mismatch(context, part, describe(wanted), place, cure(part, wanted), declared)
             good = False
         elif isinstance(part, Literal) and part.type is not BROKEN and part.value not in wanted:
             value = "" if shown(part) == show(part.value) else f" is {show(part.value)}, which"
             message = f"`{shown(part)}`{value} is outside {describe(wanted)}"
             context.error(Code.OUTSIDE_TYPE, message, part.span, f"{place} needs {describe(wanted)}")
             good = False
+        else:
+            context.clear(suspects(context, part, declared=declared))
     return good
+
+
+def suspects(context: Context, *terms: Term, declared: Span | None = None) -> list[Suspect]:
+    """The declarations that give some terms their types, and that of what needs one."""
+    places = [place for found in terms if (place := _declared(context, found)) is not None]
+    matter = Matter.NONE if any(found.type == NONE for found in terms) else Matter.TYPE
+    return [Suspect(matter, place) for place in ([*places, declared] if declared is not None else places)]
+
+
+def _declared(context: Context, found: Term) -> Span | None:
+    match found:
+        case Variable(bound=place) if place.end:
+            return place
+        case FluentTerm(fluent=name) | StaticTerm(static=name) | DefinedTerm(definition=name):
+            return context.names.values.entries[name].span
+        case _:
+            return None
 
 
 def _inside(found: Term, needed: Type) -> tuple[tuple[Term, ...], Type]:
@@ -59,6 +94,8 @@ def _inside(found: Term, needed: Type) -> tuple[tuple[Term, ...], Type]:
 def as_number(context: Context, found: Term, what: str) -> Term:
     """A term, if it may be a number; ``what`` says for what one is needed."""
     if may_be(found.type, REAL):
+        if found.type is not BROKEN:
+            context.clear(suspects(context, found))
         return found
     help_ = cure(found, REAL)
     if found.type == STRING and what == "`+`":
@@ -69,15 +106,18 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     return broken(found.span)
 
 
-def mismatch(context: Context, found: Term, needed: str, what: str, help: str | None = None) -> None:
+def mismatch(
+    context: Context, found: Term, needed: str, what: str, help: str | None = None, declared: Span | None = None
+) -> None:
     """Report a term of the wrong type."""
+    blamed = suspects(context, found, declared=declared)
     if found.type == NONE:
         message = f"{what} needs {needed}, and `none` is no such value"
-        context.error(Code.TYPE_MISMATCH, message, found.span, "never `none`", help)
+        context.error(Code.TYPE_MISMATCH, message, found.span, "never `none`", help, suspects=blamed)
     else:
         type_ = f"of type {describe(found.type)}"
         message = f"`{shown(found)}` is {type_}, but {what} needs {needed}"
-        context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {type_}", help)
+        context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {type_}", help, suspects=blamed)
 
 
 def cure(found: Term, needed: Type) -> str | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 
 from golc.theory.types import BOOL, INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value
@@ -23,6 +24,9 @@ class Broken(Type):
 
 
 BROKEN = Broken()
+
+MOST_INSTANCES = 100_000
+"""How many ground actions of one action are gone through in a state."""
 
 NOTHING = Enumeration(())
 """The type without values: that of the elements of ``{}`` and ``[]``, as long as nothing says more about them."""
@@ -124,6 +128,16 @@ def size(type_: Type) -> int:
             return 1 + size(base)
         case _:
             return len(type_.values)
+
+
+def combinations(types: Iterable[Type]) -> int | None:
+    """How many ways there are to choose a value of each type; none if one of them is not finite."""
+    count = 1
+    for type_ in types:
+        if not type_.finite:
+            return None
+        count *= size(type_)
+    return count
 
 
 def includes(whole: Type, part: Type) -> bool:

@@ -64,6 +64,18 @@ def read_primitive(theory: BasicActionTheory, where: Span, findings: Findings) -
     return None if call is None else (action.name, call)
 
 
+def read_action(theory: BasicActionTheory, text: str) -> Call:
+    """The action, primitive or exogenous, that a text names, with its arguments; raises ``UserError``."""
+    findings = Findings()
+    where = Span(Source("<action>", text), 0, len(text))
+    target = _target(where, findings, "an action, as in `" + example(theory, exogenous=False) + "`")
+    action = None if target is None else _action(theory, target, None, findings)
+    call = None if target is None or action is None else _call(theory, action, target, findings)
+    if call is None:
+        raise UserError(*findings.diagnostics)
+    return call
+
+
 def read_procedure(theory: BasicActionTheory, text: str) -> Call:
     """The procedure that a text names, with its arguments, as ``control`` or ``serve(3)``; raises ``UserError``."""
     findings = Findings()
@@ -155,16 +167,17 @@ def _target(where: Span, findings: Findings, wanted: str) -> _Target | None:
             return None
 
 
-def _action(theory: BasicActionTheory, target: _Target, exogenous: bool, findings: Findings) -> Action | None:
+def _action(theory: BasicActionTheory, target: _Target, exogenous: bool | None, findings: Findings) -> Action | None:
+    """The action that is named; ``exogenous`` says of which kind it has to be, None: of any."""
     action = theory.actions.get(target.name)
     kind = "exogenous action" if exogenous else "action"
     if action is None:
-        names = [a.name for a in theory.actions.values() if a.exogenous == exogenous]
+        names = [a.name for a in theory.actions.values() if exogenous in (None, a.exogenous)]
         if (help_ := did_you_mean(target.name, names)) is None:
             help_ = f"the domain declares {', '.join(names)}" if names else f"the domain declares no {kind}"
         findings.error(Code.EVENT, f"unknown {kind} `{target.name}`", target.span, "not declared", help_)
         return None
-    if action.exogenous != exogenous:
+    if exogenous not in (None, action.exogenous):
         message = (
             "is exogenous: the robot never performs it" if action.exogenous else "is the robot's own, not exogenous"
         )

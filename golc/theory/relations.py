@@ -9,7 +9,7 @@ from golc.diagnostics import Code, Span
 from golc.theory.closed import NoValueError, arithmetic
 from golc.theory.context import Context
 from golc.theory.elaborate_types import home
-from golc.theory.expectations import both, broken, cure, mismatch, shown, typed
+from golc.theory.expectations import both, broken, cure, mismatch, shown, suspects, typed
 from golc.theory.fitting import (
     BROKEN,
     NOTHING,
@@ -66,9 +66,17 @@ def equality(context: Context, op: Operator, left: Term, right: Term, span: Span
     if not _comparable(left, right):
         message = f"{both(left, right)} can never be equal"
         help_ = _asks_membership(left, right) or cure(right, left.type)
-        context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common", help_)
+        blamed = suspects(context, left, right)
+        context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common", help_, suspects=blamed)
         return broken(span)
+    _clear(context, left, right)
     return Operation(op, (left, right), type=BOOL, span=span)
+
+
+def _clear(context: Context, left: Term, right: Term) -> None:
+    """Two terms that go together speak for each other's declarations."""
+    if BROKEN not in (left.type, right.type):
+        context.clear(suspects(context, left, right))
 
 
 def _asks_membership(left: Term, right: Term) -> str | None:
@@ -91,12 +99,15 @@ def ordering(context: Context, op: Operator, left: Term, right: Term, span: Span
         return broken(span)
     kinds = (left.type.kinds | right.type.kinds) - {"none"}
     if kinds and kinds <= REAL.kinds:
+        _clear(context, left, right)
         return Operation(op, (left, right), type=BOOL, span=span)
     order = _order(context, left, right) if _comparable(left, right) else None
     if order is None:
         message = f"{both(left, right)} have no order"
-        context.error(Code.TYPE_MISMATCH, message, span, "numbers, or values of one enumeration, have an order")
+        marker, blamed = "numbers, or values of one enumeration, have an order", suspects(context, left, right)
+        context.error(Code.TYPE_MISMATCH, message, span, marker, suspects=blamed)
         return broken(span)
+    _clear(context, left, right)
     return Operation(op, (left, right), type=BOOL, span=span, order=order)
 
 
@@ -121,8 +132,9 @@ def within_type(context: Context, element: Term, within: Type, span: Span) -> Te
         return broken(span)
     if _kinds(element).isdisjoint(within.kinds):
         message = f"{typed(element)} can never be in {describe(within)}"
-        context.error(Code.TYPE_MISMATCH, message, span, "always false")
+        context.error(Code.TYPE_MISMATCH, message, span, "always false", suspects=suspects(context, element))
         return broken(span)
+    context.clear(suspects(context, element))
     if not may_be(element.type, within):
         name = shown(element)
         help_ = f"write `{within.low} <= {name} and {name} <= {within.high}`" if isinstance(within, Interval) else None

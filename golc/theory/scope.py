@@ -21,6 +21,7 @@ class Kind(Enum):
     SYMBOL = "value"
     FLUENT = "fluent"
     STATIC = "static"
+    EXTERN = "extern"
     DEFINITION = "definition"
     GOAL = "goal"
     INVARIANT = "invariant"
@@ -77,15 +78,17 @@ class Suggestion:
 class Names:
     """Everything that a file declares.
 
-    ``values`` holds consts, types, symbols, fluents, statics, definitions, goals and invariants; ``doings`` actions and
-    procedures. ``assumed`` are names about which nothing can be said, because what may declare them could not be read:
-    they are not reported as unknown. ``open`` says that any name may come from elsewhere (an import).
+    ``values`` holds consts, types, symbols, fluents, statics, externs, definitions, goals and invariants; ``doings``
+    actions and procedures. ``assumed`` are names about which nothing can be said, because what may declare them could
+    not be read: they are not reported as unknown. ``open`` says that any name may come from elsewhere (an import),
+    ``nameless`` that a declaration without a name, or an import without a file, may be what brings one.
     """
 
     values: Space = field(default_factory=Space)
     doings: Space = field(default_factory=Space)
     assumed: frozenset[str] = frozenset()
     open: bool = False
+    nameless: bool = False
     _suggested: dict[tuple[object, ...], Suggestion | None] = field(default_factory=dict)
 
     def assumes(self, name: str) -> bool:
@@ -157,6 +160,6 @@ class Scope:
 
     def bind(self, name: tree.Ident, type_: Type) -> tuple[Scope, Variable]:
         """One variable more, on the next level."""
-        variable = Variable(self.level, name.text, type=type_, span=name.span)
+        variable = Variable(self.level, name.text, type=type_, span=name.span, bound=name.span)
         locals_ = {**self.locals, name.text: Local(variable, name.span)}
         return replace(self, locals=locals_, level=self.level + 1), variable

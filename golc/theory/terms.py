@@ -36,6 +36,8 @@ class Variable(Base):
 
     level: int
     name: str = field(compare=False)
+    bound: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+    """Where it is bound."""
 
 
 @dataclass(frozen=True)

@@ -7,9 +7,11 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from golc.diagnostics import NOWHERE, Source, Span
+from golc.theory.border import PythonFunction
+from golc.theory.python_file import PythonFiles
 from golc.theory.scenarios import Scenario
 from golc.theory.statements import Message, Statement
-from golc.theory.terms import Binder, Choice, Term
+from golc.theory.terms import Binder, Choice, Term, ranges
 from golc.theory.types import Type, Value
 
 
@@ -36,11 +38,12 @@ class Constant(Declared):
 
 @dataclass(frozen=True)
 class Static(Declared):
-    """A function that never changes: a term over the parameters, or a table from argument tuples to values."""
+    """A function that never changes: a term over the parameters, a table from argument tuples to values, or a function
+    of Python (``extern``)."""
 
     parameters: tuple[Parameter, ...]
     type: Type
-    body: Term | Mapping[tuple[Value, ...], Value]
+    body: Term | Mapping[tuple[Value, ...], Value] | PythonFunction
 
 
 @dataclass(frozen=True)
@@ -79,6 +82,13 @@ class Effect:
     value: Term | Choice
     condition: Term | None
     span: Span = field(default=NOWHERE, compare=False, repr=False, kw_only=True)
+
+    @property
+    def terms(self) -> tuple[Term, ...]:
+        """All terms of the clause."""
+        value = self.value.among if isinstance(self.value, Choice) else self.value
+        conditions = [term for term in (self.where, self.condition) if term is not None]
+        return (*ranges(self.binders), *self.args, value, *conditions)
 
 
 @dataclass(frozen=True)
@@ -220,6 +230,8 @@ class BasicActionTheory:
     initially: tuple[Term, ...] = ()
     """What holds in every possible initial world, beside the initial values."""
     prunes: Mapping[str, Prune] = field(default_factory=dict)
+    python: PythonFiles = field(default_factory=PythonFiles, compare=False, repr=False)
+    """The Python files of its functions and devices."""
 
     @property
     def symbols(self) -> frozenset[Value]:

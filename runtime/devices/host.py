@@ -2,25 +2,18 @@
 
 from __future__ import annotations
 
-import importlib.util
-import math
-import sys
-import traceback
-from collections.abc import Callable, Sequence
-from decimal import Decimal
-from fractions import Fraction
+import reprlib
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
-from types import ModuleType
 
 from golc.diagnostics import DeviceError
 from golc.runtime.devices.base import Args, Bindings, Device, translated
-from golc.theory.fitting import collection
+from golc.theory.foreign import golc_value
 from golc.theory.ground import describe
-from golc.theory.suggest import did_you_mean
+from golc.theory.python_file import Function, PythonError
 from golc.theory.theory import BasicActionTheory, Binding, ByCall
-from golc.theory.types import Type, Value, number
-
-Function = Callable[..., object]
+from golc.theory.types import Type, Value
 
 
 class Host(Device):
@@ -33,28 +26,20 @@ class Host(Device):
 
     def __init__(self, name: str, path: Path, bindings: tuple[Binding, ...], theory: BasicActionTheory) -> None:
         super().__init__(name)
-        self._path = path
+        self._file = theory.python.file(path)
         self._all = bindings
         self._bindings = Bindings(bindings)
         self._theory = theory
         self._functions: dict[str, Function] = {}
 
     def open(self) -> None:
-        """Load the file and look up every function that a binding names."""
-        module = load_module(self._path)
+        """Execute the file and look up every function that a binding names."""
         for binding in self._all:
+            if self._theory.actions[binding.action].exogenous:
+                continue
             name = function_name(binding)
-            self._functions[name] = self._look_up(module, name)
-
-    def _look_up(self, module: ModuleType, name: str) -> Function:
-        function = getattr(module, name, None)
-        if callable(function):
-            return function  # type: ignore[no-any-return]
-        if function is not None:
-            raise DeviceError(f"`{name}` in {self._path} is not a function")
-        names = [key for key, value in vars(module).items() if callable(value)]
-        help_ = did_you_mean(name, names) or f"define it: `def {name}(…): …`"
-        raise DeviceError(f"{self._path} has no function `{name}`", help=help_)
+            with _failing():
+                self._functions[name] = self._file.function(name)
 
     def handles(self, action: str, args: Args) -> bool:
         return self._bindings.find(action, args) is not None
@@ -68,7 +53,8 @@ class Host(Device):
         binding = self._bindings.find(action, args)
         assert binding is not None
         name = function_name(binding)
-        result = guarded(lambda: self._functions[name](*args), f"`{name}`", self._path)
+        with _failing():
+            result = self._file.guarded(f"`{name}`", lambda: self._functions[name](*args))
         types = [term.type for term in self._theory.actions[action].senses]
         if not types:
             return ()
@@ -78,40 +64,17 @@ class Host(Device):
         if len(types) == 1:
             return [(result, types[0])]
         if not isinstance(result, (tuple, list)) or len(result) != len(types):
-            raise DeviceError(f"`{name}` returned {result!r}; a tuple of {len(types)} sensing results is needed")
+            raise DeviceError(
+                f"`{name}` returned {reprlib.repr(result)}; a tuple of {len(types)} sensing results is needed"
+            )
         return list(zip(result, types, strict=True))
 
     def _checked(self, value: object, type_: Type, binding: Binding) -> Value:
         meant = golc_value(translated(binding, value), type_)
         if meant in type_:
             return meant
-        call = f"`{function_name(binding)}` in {self._path}"
-        raise DeviceError(f"{call} returned {value!r}, which is not of type {describe(type_)}")
-
-
-FOREIGN: Value = object()
-"""What stands for a Python value that is none of golc's: it belongs to no type."""
-
-
-def golc_value(value: object, type_: Type) -> Value:
-    """The value that a Python object stands for where a type is needed.
-
-    A real number may be a ``float``, which means the decimals that Python writes; lists and sets may be mutable.
-    """
-    whole = collection(type_)
-    match value:
-        case None | bool() | int() | str():
-            return value
-        case Fraction() if "real" in type_.kinds:
-            return number(value)
-        case float() | Decimal() if "real" in type_.kinds and math.isfinite(value):
-            return number(Fraction(str(value)))
-        case list() | tuple() if whole is not None and whole.kind == "list":
-            return tuple([golc_value(element, whole.element) for element in value])
-        case set() | frozenset() if whole is not None and whole.kind == "set":
-            return frozenset([golc_value(element, whole.element) for element in value])
-        case _:
-            return FOREIGN
+        call = f"`{function_name(binding)}` in {self._file.path}"
+        raise DeviceError(f"{call} returned {reprlib.repr(value)}, which is not of type {describe(type_)}")
 
 
 def function_name(binding: Binding) -> str:
@@ -119,38 +82,10 @@ def function_name(binding: Binding) -> str:
     return binding.behaviour.function if isinstance(binding.behaviour, ByCall) else binding.action
 
 
-def load_module(path: Path) -> ModuleType:
-    """Run a Python file as a module of its own; its folder is on the path for what it imports."""
-    if not path.is_file():
-        raise DeviceError(f"cannot read the Python file {path} of the device `host`", help="write it beside the domain")
-    spec = importlib.util.spec_from_file_location(f"golc_host_{path.stem}", path)
-    if spec is None or spec.loader is None:
-        raise DeviceError(f"{path} is not a Python file", help="its name ends in `.py`")
-    module = importlib.util.module_from_spec(spec)
-    folder = str(path.parent.resolve())
-    if folder not in sys.path:
-        sys.path.insert(0, folder)
-    loader = spec.loader
-    guarded(lambda: loader.exec_module(module), f"loading {path.name}", path)
-    return module
-
-
-def guarded(call: Callable[[], object], what: str, path: Path) -> object:
-    """The result of foreign code; whatever it raises, but an interrupt of the run, is a device failure."""
+@contextmanager
+def _failing() -> Iterator[None]:
+    """What is wrong with Python code is a failure of the device."""
     try:
-        return call()
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:
-        why = traceback.format_exception_only(error)[-1].strip()
-        raise DeviceError(f"{what} failed at {_place(error, path)}: {why}") from error
-
-
-def _place(error: BaseException, path: Path) -> str:
-    """The last line of the file that the exception went through."""
-    file = path.resolve()
-    if isinstance(error, SyntaxError) and error.filename is not None and Path(error.filename).resolve() == file:
-        return f"{path}:{error.lineno}"
-    frames = traceback.extract_tb(error.__traceback__)
-    lines = [frame.lineno for frame in frames if Path(frame.filename).resolve() == file]
-    return f"{path}:{lines[-1]}" if lines else str(path)
+        yield
+    except PythonError as error:
+        raise DeviceError(str(error), error.help) from error

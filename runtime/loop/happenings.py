@@ -172,7 +172,7 @@ class End(Enum):
     INTERRUPTED = "interrupted"
     """By a signal, or because nobody listens any more."""
     BUG = "bug"
-    """golc itself failed."""
+    """golc itself failed, or a function that was told what happens."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import traceback
-from collections import Counter
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
@@ -30,17 +29,15 @@ from golc.runtime.loop.happenings import (
 )
 from golc.runtime.observers.reasons import Reasons, one_line
 from golc.situation.dynamics import Dynamics
+from golc.situation.summary import summary
 from golc.situation.worlds import State
 from golc.theory.order import spelt
-from golc.theory.types import Value, show, show_call
+from golc.theory.types import show, show_call
 
 WHAT, WHO = 30, 12
 """Widths of the columns: what happens and who does it; the rest of a line says why, or what has changed."""
 MARGIN = " " * 11
 """As wide as the time and the space behind it."""
-
-FEW = 4
-"""So many values of one fluent are all shown."""
 
 INSTANT = 0.005
 """Seconds below which a duration is not worth mentioning."""
@@ -77,8 +74,8 @@ class Trace:
         dynamics: Dynamics,
         style: Style,
         verbosity: int,
-        write: Callable[[str], None],
-        complain: Callable[[tuple[Diagnostic, ...]], None],
+        write: Callable[[str], object],
+        complain: Callable[[tuple[Diagnostic, ...]], object],
     ) -> None:
         self._dynamics = dynamics
         self._style = style
@@ -212,34 +209,3 @@ class Trace:
         clock = MARGIN if time is None else self._style.paint(DIM, f"{time:7.2f} s") + "  "
         columns = f"{what:{WHAT}} {who:{WHO}}" if who else f"{what:{WHAT + 1 + WHO}}"
         return f"{clock}{self._style.paint(code, columns if rest else columns.rstrip())}  {rest}".rstrip()
-
-
-def summary(dynamics: Dynamics, state: State) -> Iterator[str]:
-    """A state in a few lines: fluents without arguments together, a relational one by where it holds, any other by its
-    usual value and the exceptions."""
-    values: dict[str, list[tuple[tuple[Value, ...], Value]]] = {}
-    for (name, args), value in dynamics.values(state):
-        values.setdefault(name, []).append((args, value))
-    plain = [f"{name} = {show(known[0][1])}" for name, known in values.items() if known[0][0] == ()]
-    if plain:
-        yield ", ".join(plain)
-    for name, known in values.items():
-        if known[0][0] != ():
-            yield _family(name, known)
-
-
-def _family(name: str, known: list[tuple[tuple[Value, ...], Value]]) -> str:
-    """All ground fluents of one name."""
-    if all(isinstance(value, bool) for _, value in known):
-        holds = [_arguments(args) for args, value in known if value]
-        return f"{name} holds for {', '.join(holds)}" if holds else f"{name} holds for nothing"
-    usual = Counter(value for _, value in known).most_common(1)[0][0]
-    others = [(args, value) for args, value in known if value != usual]
-    if not others:
-        return f"every {name} = {show(usual)}"
-    shown = [f"{show_call(name, args)} = {show(value)}" for args, value in (known if len(known) <= FEW else others)]
-    return ", ".join(shown if len(known) <= FEW else [*shown, f"all other {name} = {show(usual)}"])
-
-
-def _arguments(args: tuple[Value, ...]) -> str:
-    return show(args[0]) if len(args) == 1 else show_call("", args)

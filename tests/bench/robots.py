@@ -7,10 +7,8 @@ from functools import cache
 from pathlib import Path
 
 from golc.bytecode.image import Image
-from golc.diagnostics import Findings
 from golc.loading import load
 from golc.nqc.build import build
-from golc.nqc.numbering import number_device
 from golc.nqc.toolchain import Target
 from golc.runtime.rcxsim.machine.machine import Machine
 from golc.runtime.rcxsim.machine.messages import Alone
@@ -37,9 +35,8 @@ def _scene() -> Scene:
 @cache
 def _program() -> Image:
     theory = load(DELIVERY / "delivery.gl")
-    actions = number_device(theory, theory.devices[0], Findings())
     with tempfile.TemporaryDirectory() as folder:
-        return build(theory, actions, Target.RCX2, Path(folder)).image
+        return build(theory, theory.devices[0], Target.RCX2, Path(folder)).image
 
 
 def _world_alone() -> float:

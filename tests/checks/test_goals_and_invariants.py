@@ -6,8 +6,9 @@ from pathlib import Path
 
 import pytest
 
+import golc
 from golc.diagnostics import Code, UserError
-from golc.loading import GOAL, examine, load
+from golc.loading import examine, load
 
 LIFT = """domain lift
 type floor = 1..4
@@ -87,13 +88,12 @@ def test_their_names_are_in_the_theory(tmp_path: Path) -> None:
     path.write_text(LIFT + "goal high: at = 4\ninvariant low: at < 5\n")
     theory = load(path)
     assert (theory.goals, theory.invariants) == (("high",), ("low",))
-    assert load(path, goal="high or lit(at)").goals == ("high", GOAL)
 
 
 def test_a_formula_from_outside_has_its_own_places(tmp_path: Path) -> None:
     path = tmp_path / "lift.gl"
     path.write_text(LIFT)
     with pytest.raises(UserError) as caught:
-        load(path, goal="at = 3 and bright")
+        golc.load(path).planning(goal="at = 3 and bright")
     (finding,) = caught.value.diagnostics
     assert (str(finding.span), finding.span.text) == ("<goal>:1:12", "bright")

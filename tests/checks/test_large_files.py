@@ -13,10 +13,10 @@ from golc.loading import Examined, examine
 LINES = 65
 
 
-def checked(folder: Path, text: str) -> Examined:
+def checked(folder: Path, text: str, reachable: bool = False) -> Examined:
     path = folder / "large.gl"
     path.write_text(text, encoding="utf-8")
-    return examine(path, proofs=True)
+    return examine(path, proofs=True, reachable=reachable)
 
 
 def calls(folder: Path, text: str) -> int:
@@ -94,3 +94,13 @@ def test_what_an_invariant_connects_is_known(tmp_path: Path) -> None:
     action = "action a:\n    poss g = 2\n    causes g := 2\n"
     text = f"domain d\n{fluents}{action}proc p:\n    test f = 1\n    a\n"
     assert "GL072" in [finding.code.code for finding in checked(tmp_path, text).findings]
+
+
+def test_what_goes_together_in_all_states_that_can_be_reached_is_known(tmp_path: Path) -> None:
+    action = "action a:\n    poss g = 2\n    causes f := 2\n    causes g := 2\n"
+    text = (
+        f"domain d\nfluent f: 0..2 = 2\nfluent g: 0..2 = 2\n{action}action b:\n    causes f := 1\n    causes g := 1\n"
+    )
+    text += "proc p:\n    test f = 1\n    a\n"
+    assert "GL072" not in [finding.code.code for finding in checked(tmp_path, text).findings]
+    assert "GL072" in [finding.code.code for finding in checked(tmp_path, text, reachable=True).findings]

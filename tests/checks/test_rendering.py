@@ -184,4 +184,5 @@ def test_json_has_the_same_fields() -> None:
         "labels": [{"span": other, "text": "there"}],
         "notes": ["a"],
         "help": "b",
+        "fix": None,
     }

@@ -96,7 +96,7 @@ def test_json_says_the_same(spare: str) -> None:
 def test_json_of_nothing_is_json() -> None:
     found = json.loads(golc("check", "--format", "json", DELIVERY).stdout)
     assert found.pop("questions") > 0
-    assert found == {"findings": [], "errors": 0, "warnings": 0, "undecided": 0}
+    assert found == {"findings": [], "errors": 0, "warnings": 0, "fixed": 0, "undecided": 0}
 
 
 def test_a_constant_may_be_replaced(tmp_path: Path) -> None:
@@ -203,3 +203,37 @@ def test_a_reader_that_has_gone_ends_it(spare: str) -> None:
 def test_a_name_of_nothing_is_no_directory() -> None:
     done = golc("check", "", "-q")
     assert (done.returncode, done.stdout.splitlines()[0]) == (1, "error[GL001]: cannot read ``: a file has a name")
+
+
+@pytest.fixture
+def trusting(tmp_path: Path) -> str:
+    """A domain with a constant from Python, whose file says when it is executed."""
+    path = tmp_path / "far.gl"
+    path.write_text(
+        'domain far\nconst far = steps(2)\nextern steps(n: int): int from "steps.py"\nfluent x: int = far\n'
+    )
+    (tmp_path / "steps.py").write_text("import sys\nprint('here', file=sys.stderr)\ndef steps(n): return 3 * n\n")
+    return str(path)
+
+
+def test_python_code_is_executed_only_with_trust(trusting: str) -> None:
+    done = golc("check", "--strict", trusting)
+    assert done.returncode == 0
+    assert done.stdout.startswith("note[GL034]: this has no value yet: it depends on `steps`, and ")
+    assert done.stderr == "checked 1 file: 1 note\n"
+
+
+def test_executing_python_code_is_said_once(trusting: str) -> None:
+    python = trusting.replace("far.gl", "steps.py")
+    done = golc("check", "--trust", trusting, trusting)
+    assert "GL034" not in done.stdout
+    assert done.stderr == f"executes {python}\nhere\nhere\nchecked 2 files: 2 warnings\n"
+
+    done = golc("check", "--trust", "-q", trusting)
+    assert done.stderr == "here\n"
+
+
+@pytest.mark.parametrize("command", ["plan", "test", "explain", "run"])
+def test_commands_that_need_values_execute_python_code_and_say_so(trusting: str, command: str) -> None:
+    done = golc(command, trusting, *({"explain": ["x"], "plan": ["--goal", "x = 6"]}.get(command, [])))
+    assert done.stderr.startswith(f"executes {trusting.replace('far.gl', 'steps.py')}\nhere\n")

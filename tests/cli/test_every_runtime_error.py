@@ -35,9 +35,15 @@ fluent hidden: t = unknown
 fluent here: bool = unknown
 fluent there: bool = unknown
 define same(n: t) := n = y
+extern half(n: t): int from "half.py"
 action go(n: t)
 action look:
     senses y
+"""
+HALF = """def half(n):
+    if n > 2:
+        raise ValueError(n)
+    return n / 2
 """
 DEVICES = """
 device self:
@@ -67,6 +73,13 @@ def entries() -> Iterator[Entry]:
 
 
 ENTRIES = [*entries()]
+
+
+@pytest.fixture(autouse=True)
+def half(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The file of the Python function, in the folder where commands run."""
+    (tmp_path / "half.py").write_text(HALF)
+    monkeypatch.chdir(tmp_path)
 
 
 @pytest.fixture
@@ -107,7 +120,7 @@ def test_plans(tmp_path: Path, capsys: pytest.CaptureFixture[str], entry: Entry)
     if text.startswith(("causes", "cost")):
         text = f"action a:\n    {text}\nproc control:\n    a"
     place = written(tmp_path / "d.gl", f"{DECLARATIONS}{text}\n")
-    assert invoke([*entry.command, str(tmp_path / "d.gl")]) == 5
+    assert invoke([*entry.command, "-q", "d.gl"]) == 5
     assert told(capsys.readouterr().err) == (entry.head, place)
 
 
@@ -130,7 +143,7 @@ def test_runs(tmp_path: Path, entry: Entry) -> None:
     place = written(tmp_path / "d.gl", f"{DECLARATIONS}{text}{DEVICES}") or written(tmp_path / "events", event)
     written(tmp_path / "events", event)
     command = [sys.executable, "-m", "golc", "run", "d.gl", "--events", "events", "--check-invariants"]
-    command += ["--on-impossible-exog", "stop", "--on-surprising-sensing", "stop"]
+    command += ["-q", "--on-impossible-exog", "stop", "--on-surprising-sensing", "stop"]
     done = subprocess.run(
         command, cwd=tmp_path, capture_output=True, stdin=subprocess.DEVNULL, text=True, timeout=60, check=False
     )

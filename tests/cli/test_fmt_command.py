@@ -97,6 +97,14 @@ def test_a_pipe_is_left_alone(folder: Path, capsys: Captured) -> None:
     ]
 
 
+def test_python_is_left_to_formatters_of_python(folder: Path, capsys: Captured) -> None:
+    (folder / "theory.py").write_text("x =  1\n")
+
+    assert invoke(["fmt", "theory.py"]) == 1
+    assert (folder / "theory.py").read_text() == "x =  1\n"
+    assert "`theory.py` is Python: use a formatter of Python" in capsys.readouterr().err
+
+
 def test_check_lists_what_would_change(folder: Path, capsys: Captured) -> None:
     (folder / "a.gl").write_text(UGLY)
     (folder / "b.gl").write_text(CANONICAL)

@@ -19,6 +19,7 @@ from golc.explain.axioms import Cause, SuccessorState, successor_state
 from golc.loading import load
 from golc.situation.dynamics import Dynamics
 from golc.theory import terms as t
+from golc.theory.border import PythonFunction
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Collection, Type, Value
 
@@ -131,6 +132,7 @@ class Reading:
                 return self.state[name, self.all(args, scope)]
             case t.StaticTerm(static=name, args=args):
                 body, values = self.theory.statics[name].body, self.all(args, scope)
+                assert not isinstance(body, PythonFunction)
                 return body[values] if isinstance(body, Mapping) else self(body, values)
             case t.DefinedTerm(definition=name, args=args):
                 return self(self.theory.definitions[name].body, self.all(args, scope))

@@ -37,7 +37,7 @@ class Workshop:
 
     def found(self, text: str) -> list[Diagnostic]:
         """What ``golc check`` finds about devices."""
-        found = examine(self.write("robot.gl", text)).findings
+        found = examine(self.write("robot.gl", text), proofs=True).findings
         return [diagnostic for diagnostic in found if "GL080" <= diagnostic.code.code <= "GL099"]
 
     def numbers(self, text: str) -> ActionMap:

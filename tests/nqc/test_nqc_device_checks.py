@@ -166,12 +166,12 @@ task t() { Wait(1); }
         ("a by call t", ["GL096"]),
         ("a by start f", ["GL096"]),
         ("a by call g", ["GL096"]),
-        ("a by call elsewhere", []),
-        ("a by start elsewhere", []),
+        ("a by call elsewhere", ["GL096"]),
+        ("a by start elsewhere", ["GL096"]),
     ],
 )
 def test_behaviours_in_the_nqc_file_fit_the_bindings(workshop: Workshop, binding: str, expected: list[str]) -> None:
-    workshop.write("robot.nqc", NQC)
+    workshop.write("robot.nqc", NQC + "task watch() { golc_report(EXOG_e); }\n")
     text = f'domain d\naction a\nexog e\ndevice rcx "robot.nqc":\n    0 {binding}\n    9 e\n'
     assert codes(workshop, text) == expected
 
@@ -188,5 +188,5 @@ def test_functions_take_one_argument_for_each_of_the_action(workshop: Workshop, 
 def test_an_nqc_file_that_cannot_be_read_is_one_finding(workshop: Workshop) -> None:
     (workshop.folder / "robot.nqc").mkdir()
     path = workshop.write("robot.gl", 'domain d\naction a\nproc control:\n    a\ndevice rcx "robot.nqc":\n    0 a\n')
-    found = examine(path).findings
+    found = examine(path, proofs=True).findings
     assert [(diagnostic.code.code, diagnostic.span.line) for diagnostic in found] == [("GL001", 5)]

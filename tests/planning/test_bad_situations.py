@@ -79,7 +79,7 @@ def test_the_best_plan_enters_no_bad_situation(
 ) -> None:
     theory = theory_of(f"{DOMAIN}{prune}\n")
     assert planned(theory, strategy=strategy) == steps
-    goal = GoalPlanning(theory, "there", Limits())
+    goal = GoalPlanning(theory, theory.definitions["there"].body, Limits())
     assert next(([str(step) for step in plan.steps] for plan in goal), None) == steps
 
 
@@ -108,7 +108,8 @@ def test_a_dead_end_names_the_prune(theory_of: TheoryOf) -> None:
     assert list(planning) == []
     assert planning.outcome.stuck == ("rest",)
     assert [reason.text for reason in planning.outcome.reasons] == ["`go(2)` is pruned by `low`"]
-    goal = GoalPlanning(theory_of(f"{DOMAIN}prune any: true\n"), "there", Limits())
+    theory = theory_of(f"{DOMAIN}prune any: true\n")
+    goal = GoalPlanning(theory, theory.definitions["there"].body, Limits())
     assert list(goal) == []
     assert [reason.text for reason in goal.outcome.reasons][:3] == [
         "`at = 4` is false",

@@ -206,7 +206,7 @@ def test_a_goal_is_reached_exactly_if_it_can_be(
     if conformant:
         defined.k.outcomes = lambda action, worlds, args: {(): worlds}
     wanted = of_goal(defined)
-    plan = next(iter(GoalPlanning(theory, "reached", Limits(steps=bound), conformant)), None)
+    plan = next(iter(GoalPlanning(theory, theory.definitions["reached"].body, Limits(steps=bound), conformant)), None)
     assert (plan is not None) == (wanted < math.inf if bound is None else wanted <= bound)
     if plan is not None:
         assert weight(plan) == wanted

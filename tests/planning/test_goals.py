@@ -6,10 +6,8 @@ from pathlib import Path
 
 import pytest
 
+from golc.api.loading import load
 from golc.diagnostics import ProgramError, UserError
-from golc.loading import GOAL, load
-from golc.planning.goals import GoalPlanning
-from golc.planning.limits import Limits
 from golc.planning.plans import Outcome
 
 LIFT = """domain lift
@@ -42,10 +40,12 @@ action drop(s: spot):
 """
 
 
-def plan(tmp_path: Path, text: str, goal: str, limits: Limits | None = None) -> tuple[list[str] | None, Outcome]:
+def plan(
+    tmp_path: Path, text: str, goal: str, steps: int | None = None, nodes: int | None = None
+) -> tuple[list[str] | None, Outcome]:
     path = tmp_path / "domain.gl"
     path.write_text(text)
-    planning = GoalPlanning(load(path, goal=goal), GOAL, limits or Limits())
+    planning = load(path).planning(goal=goal, steps=steps, nodes=nodes)
     plans = [[str(action) for action in found.actions] for found in planning]
     return (plans[0] if plans else None), planning.outcome
 
@@ -89,17 +89,17 @@ def test_where_nothing_is_possible_the_preconditions_are_named(tmp_path: Path) -
 @pytest.mark.parametrize(
     ("limits", "gave_up"),
     [
-        (Limits(steps=5), "no plan of more than 5 steps was considered"),
-        (Limits(nodes=3), "gave up after 3 expanded pairs of program and state"),
+        ({"steps": 5}, "no plan of more than 5 steps was considered"),
+        ({"nodes": 3}, "gave up after 3 expanded pairs of program and state"),
     ],
 )
-def test_a_limit_is_no_proof(tmp_path: Path, limits: Limits, gave_up: str) -> None:
-    found, outcome = plan(tmp_path, LIFT, "dark", limits)
+def test_a_limit_is_no_proof(tmp_path: Path, limits: dict[str, int], gave_up: str) -> None:
+    found, outcome = plan(tmp_path, LIFT, "dark", **limits)
     assert (found, outcome.gave_up) == (None, gave_up)
 
 
 def test_a_plan_of_just_so_many_steps_is_found(tmp_path: Path) -> None:
-    found, _ = plan(tmp_path, LIFT, "dark", Limits(steps=6))
+    found, _ = plan(tmp_path, LIFT, "dark", steps=6)
     assert found is not None
 
 

@@ -68,7 +68,7 @@ def test_the_lift_has_the_recorded_executions_each_once() -> None:
 def test_the_ten_blocks_have_the_one_recorded_plan_of_the_least_length() -> None:
     theory = load(EXAMPLES / "blocks" / "blocks.gl")
     recorded = case("blocks-ten")["actions"]
-    (goal,) = GoalPlanning(theory, "done", Limits())
+    (goal,) = GoalPlanning(theory, theory.definitions["done"].body, Limits())
     assert [_as_recorded(str(action)) for action in goal.actions] == recorded
     (plan,) = Planning(executable(theory, "control"), Limits(steps=11), all_plans=True)
     assert [_as_recorded(str(action)) for action in plan.actions] == recorded

@@ -8,7 +8,6 @@ import select
 import signal
 import socket
 import subprocess
-import sys
 import termios
 import time
 from collections.abc import Callable
@@ -16,9 +15,7 @@ from pathlib import Path
 
 import pytest
 
-from golc.diagnostics import DeviceError
 from golc.runtime.rcxsim.ports import _make_link
-from golc.runtime.rcxsim.process import BrickOptions, spawn
 
 Sim = Callable[..., "subprocess.Popen[str]"]
 POLL = bytes.fromhex("55 ff 00 f7 08 53 ac 4a b5")
@@ -47,20 +44,6 @@ def ended(child: subprocess.Popen[str]) -> tuple[int, str]:
     """Exit code and what was said on stderr."""
     _, complaints = child.communicate(timeout=20)
     return child.returncode, complaints
-
-
-def gone(pid: int) -> bool:
-    """Whether a process is no more, waiting for it up to 20 seconds."""
-    deadline = time.monotonic() + 20
-    while time.monotonic() < deadline:
-        try:
-            state = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0]
-        except FileNotFoundError:
-            return True
-        if state == "Z":
-            return True
-        time.sleep(0.02)
-    return False
 
 
 def test_pty_with_echo(sim: Sim, lift_file: Path) -> None:
@@ -232,68 +215,6 @@ def test_file_without_a_brick(sim: Sim, tmp_path: Path) -> None:
     assert "no brick to simulate" in complaint
 
 
-def test_spawn_gives_a_port_and_closes(lift_file: Path) -> None:
-    with spawn(lift_file, BrickOptions(air_time=0, echo=False)) as brick:
-        tower = os.open(brick.port, os.O_RDWR | os.O_NOCTTY)
-        try:
-            assert ask(tower, POLL, 9) == NONE
-        finally:
-            os.close(tower)
-        pid = brick.pid
-    assert gone(pid)
-
-
-def test_spawn_passes_every_option(lift_file: Path, tmp_path: Path) -> None:
-    script = tmp_path / "script.events"
-    script.write_text("at 0 s: bell\n")
-    options = BrickOptions(
-        speed=50, air_time=0.5, loss=0.0, garble=0.0, seed=5, events=script, trace=tmp_path / "trace", echo=False
-    )
-    with spawn(lift_file, options) as brick:
-        tower = os.open(brick.port, os.O_RDWR | os.O_NOCTTY)
-        try:
-            ask(tower, POLL, 9)
-            assert ask(tower, POLL, 9) == bytes.fromhex("55 ff 00 f7 08 3a c5 31 ce")
-        finally:
-            os.close(tower)
-    assert (tmp_path / "trace").read_text()
-
-
-def test_spawn_says_why_it_failed(tmp_path: Path) -> None:
-    with pytest.raises(DeviceError, match=r"missing\.gl"):
-        spawn(tmp_path / "missing.gl")
-
-
-def test_spawn_gives_up_at_its_deadline(lift_file: Path) -> None:
-    with pytest.raises(DeviceError, match="did not start"):
-        spawn(lift_file, within=0.001)
-
-
-PARENT = """
-import sys, time
-from golc.runtime.rcxsim.process import spawn
-brick = spawn(sys.argv[1])
-print(brick.pid, flush=True)
-time.sleep(600)
-"""
-
-
-@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGHUP])
-def test_child_dies_with_its_parent(lift_file: Path, number: signal.Signals) -> None:
-    with subprocess.Popen([sys.executable, "-c", PARENT, str(lift_file)], stdout=subprocess.PIPE, text=True) as parent:
-        assert parent.stdout is not None
-        pid = int(parent.stdout.readline())
-        parent.send_signal(number)
-        parent.wait(20)
-        assert gone(pid)
-
-
-def test_child_survives_the_terminal_s_interrupt(lift_file: Path) -> None:
-    with spawn(lift_file) as brick:
-        assert os.getsid(brick.pid) != os.getsid(0)
-        assert os.getpgid(brick.pid) != os.getpgid(0)
-
-
 def test_a_link_left_behind_to_the_terminal_that_is_given_out_again_is_replaced(tmp_path: Path) -> None:
     link = tmp_path / "brick"
     master, slave = os.openpty()
@@ -316,9 +237,3 @@ def test_a_link_to_something_else_stays(tmp_path: Path) -> None:
         _make_link(link, "/dev/pts/no-such-terminal")
 
     assert link.readlink() == target
-
-
-def test_the_encoding_of_the_parent_is_not_that_of_the_child(lift_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONIOENCODING", "utf-16")
-    with spawn(lift_file) as brick:
-        assert brick.port.startswith("/dev/")

@@ -11,7 +11,7 @@ import pytest
 from jsonschema import Draft4Validator
 
 from golc.cli import invoke
-from golc.diagnostics import Code, Diagnostic, Label, Severity, Source, Span
+from golc.diagnostics import Code, Diagnostic, Edit, Fix, Label, Severity, Source, Span
 from golc.reporting.sarif import log
 
 SCHEMA = json.loads((Path(__file__).parent / "sarif-2.1.0-rtm.5.json").read_text(encoding="utf-8"))
@@ -65,10 +65,42 @@ def test_a_value_from_the_command_line_is_in_no_file() -> None:
     assert result(finding)["locations"] == [{"logicalLocations": [{"fullyQualifiedName": "-D x"}]}]
 
 
+def test_a_fix_is_a_change_of_its_file() -> None:
+    text = Source("a b.gl", "domain d\nfluent 日本 == true\n", editable=True)
+    edits = (Edit(Span(text, 19, 21), "="), Edit(Span(text, 26, 26), "  # yes"))
+    finding = Diagnostic(Code.FOREIGN, "no", Span(text, 19, 21), fix=Fix("write `=`", edits))
+    deleted = {"startLine": 2, "startColumn": 11, "endLine": 2, "endColumn": 13}
+    inserted = {"startLine": 2, "startColumn": 18, "endLine": 2, "endColumn": 18}
+    assert result(finding)["fixes"] == [
+        {
+            "description": {"text": "write `=`"},
+            "artifactChanges": [
+                {
+                    "artifactLocation": {"uri": "a%20b.gl"},
+                    "replacements": [
+                        {"deletedRegion": deleted, "insertedContent": {"text": "="}},
+                        {"deletedRegion": inserted, "insertedContent": {"text": "  # yes"}},
+                    ],
+                }
+            ],
+        }
+    ]
+
+
 def test_every_code_is_a_rule() -> None:
     run = log([], {"errors": 0})["runs"][0]
     assert [rule["id"] for rule in run["tool"]["driver"]["rules"]] == [code.code for code in Code]
     assert (run["results"], run["properties"]) == ([], {"errors": 0})
+
+
+def test_a_log_with_fixes_follows_the_schema(capsys: pytest.CaptureFixture[str]) -> None:
+    mistakes = sorted((Path(__file__).parents[1] / "syntax" / "mistakes").glob("*.gl"))
+    invoke(["check", "-q", "--no-proofs", "--format", "sarif", *map(str, mistakes)])
+    written = json.loads(capsys.readouterr().out)
+    assert [error.message for error in Draft4Validator(SCHEMA).iter_errors(written)] == []
+    results = written["runs"][0]["results"]
+    assert any("fixes" in each for each in results)
+    assert any("fixes" not in each for each in results)
 
 
 @pytest.mark.parametrize("names", [("names", "warnings", "values", "knowledge"), ("everything",), ("missing",)])

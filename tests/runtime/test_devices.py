@@ -16,7 +16,8 @@ from golc.runtime.devices.base import Device, Router
 from golc.runtime.devices.bricks import Link
 from golc.runtime.devices.build import Surroundings, build_devices
 from golc.runtime.devices.desk import Desk
-from golc.runtime.devices.host import Host, load_module
+from golc.runtime.devices.host import Host
+from golc.theory.python_file import PythonError, PythonFile
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
@@ -299,8 +300,8 @@ def test_a_failure_in_a_file_named_by_a_relative_path_has_its_line(
     monkeypatch.chdir(tmp_path)
     Path("broken.py").write_text("x = 1\nraise ValueError('no')\n")
 
-    with pytest.raises(DeviceError, match=r"broken\.py:2: ValueError: no"):
-        load_module(Path("broken.py"))
+    with pytest.raises(PythonError, match=r"broken\.py:2: ValueError: no"):
+        PythonFile(Path("broken.py"), trusted=True).function("f")
 
 
 def test_an_interrupt_of_the_run_passes_through_a_function(devices: Devices) -> None:
@@ -313,7 +314,7 @@ def test_an_interrupt_of_the_run_passes_through_a_function(devices: Devices) -> 
 @pytest.mark.parametrize(
     ("python", "message"),
     [
-        (None, "cannot read the Python file"),
+        (None, "there is no such file"),
         ("def see(:", "loading helpers.py failed at"),
         ("import nothing_of_this_name", "No module named 'nothing_of_this_name'"),
         (HELPERS.replace("def see", "def sees"), "has no function `see`"),

@@ -13,7 +13,8 @@ from golc.diagnostics import DeviceError, Diagnostic
 from golc.runtime.loop.happenings import Remedy
 from golc.runtime.loop.inbox import Closed, Refusal, Report
 from golc.runtime.loop.policy import Policy
-from golc.runtime.observers.trace import Style, Trace, summary
+from golc.runtime.observers.trace import Style, Trace
+from golc.situation.summary import summary
 from golc.theory.theory import BasicActionTheory
 
 Start = Callable[..., Any]

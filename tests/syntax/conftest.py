@@ -212,6 +212,7 @@ DECLARATIONS = st.one_of(
     st.builds(ast.Const, NAMES, EXPRESSIONS),
     st.builds(ast.TypeDecl, NAMES, TYPES),
     st.builds(ast.Static, NAMES, PARAMETERS, maybe(TYPES), EXPRESSIONS | TABLES),
+    st.builds(ast.Extern, NAMES, PARAMETERS, maybe(TYPES), TEXTS),
     st.builds(ast.Fluent, NAMES, PARAMETERS, maybe(TYPES), maybe(VALUES)),
     st.builds(ast.Initially, WORDLESS),
     st.builds(ast.Define, NAMES, PARAMETERS, EXPRESSIONS),

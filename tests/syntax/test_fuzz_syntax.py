@@ -26,7 +26,7 @@ PIECES = [
 
 
 def accepted_or_explained(text: str) -> None:
-    source = Source("t", text)
+    source = Source("t", text, editable=True)
     findings = Findings()
     file = parse_file(source, findings)
 
@@ -84,6 +84,6 @@ def test_any_expression(pieces: list[str]) -> None:
     findings = Findings()
     text = " ".join(pieces)
 
-    assert parse_expression(Source("t", text), findings) is not None or findings.has_errors
+    assert parse_expression(Source("t", text, editable=True), findings) is not None or findings.has_errors
     for finding in findings.diagnostics:
         assert 0 <= finding.span.start <= finding.span.end <= len(text)

@@ -92,6 +92,8 @@ action a:
         "domain d\ntype t = {a, if}",
         "domain d\nstatic if = 1",
         "domain d\nstatic s(if: t) = 1",
+        'domain d\nextern if from "h.py"',
+        'domain d\nextern s(if: t) from "h.py"',
         "domain d\ndefine if := true",
         "domain d\naction if",
         "domain d\nexog if",

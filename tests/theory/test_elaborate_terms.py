@@ -155,7 +155,9 @@ def test_spans_are_those_of_the_text(theory: Build) -> None:
 
 
 def test_one_mistake_is_one_finding(found: Build) -> None:
-    text = HEAD + "define it := (att + 1) * 2 in station and lit(att - 1) implies motoin = stopped and not motoin\n"
+    text = HEAD + "define ok := at = 1 and motion = stopped\n"
+    it = "(att + 1) * 2 in station and lit(att - 1) implies motoin = stopped and not motoin"
+    text += f"define it := {it}\n"
     codes = [line.split()[1] for line in found(text)]
     assert codes == ["GL012"] * 4  # one for each misspelt word, none for what is around it
 

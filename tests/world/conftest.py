@@ -12,10 +12,9 @@ from typing import Any
 import pytest
 
 from golc.bytecode.image import Image
-from golc.diagnostics import Findings, Source
+from golc.diagnostics import Source
 from golc.loading import load
 from golc.nqc.build import build
-from golc.nqc.numbering import number_device
 from golc.nqc.toolchain import Target
 from golc.runtime.rcxsim.machine.machine import Machine
 from golc.runtime.rcxsim.machine.options import Firmware
@@ -177,12 +176,10 @@ class DeliveryRobot:
 def program(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Target], Image]:
     """The compiled program of the delivery robot."""
     theory = load(DELIVERY / "delivery.gl")
-    findings = Findings()
-    actions = number_device(theory, theory.devices[0], findings)
 
     @cache
     def compiled(target: Target) -> Image:
-        return build(theory, actions, target, tmp_path_factory.mktemp("program")).image
+        return build(theory, theory.devices[0], target, tmp_path_factory.mktemp("program")).image
 
     return compiled
 

@@ -123,7 +123,8 @@ class TheoryBrick:
             sensed = self._world.sense(action, args, answers)
             number = self._numbers.sensing_number(action, sensed, args)
         except (ProgramError, DeviceError) as error:
-            self._trace.tell(now, "senseless", action=show_call(action, args), problem=str(error))
+            problem = error.diagnostic.message if isinstance(error, ProgramError) else str(error)
+            self._trace.tell(now, "senseless", action=show_call(action, args), problem=problem)
             return 0
         self._trace.tell(now, "sensed", action=show_call(action, args), value=show(sensed), number=number)
         return number

@@ -1,0 +1,30 @@
+"""Which bricks of a theory somebody means."""
+
+from __future__ import annotations
+
+from golc.diagnostics import Code, Diagnostic, Span, UserError
+from golc.nqc.toolchain import Target
+from golc.theory.theory import BasicActionTheory, Device
+
+
+def target_of(option: str) -> Target:
+    """The firmware that a name stands for; raises ``ValueError`` if none does."""
+    for target in Target:
+        if target.option == option:
+            return target
+    raise ValueError(f"there is no target {option!r}; there is {', '.join(target.option for target in Target)}")
+
+
+def chosen(theory: BasicActionTheory, name: str | None) -> list[Device]:
+    """The brick of a name, or all of them; ``ValueError`` for an unknown name, ``UserError`` if there is none."""
+    bricks = [device for device in theory.devices if device.kind == "rcx"]
+    if name is not None:
+        known = ", ".join(device.name for device in bricks) or "none"
+        bricks = [device for device in bricks if device.name == name]
+        if not bricks:
+            raise ValueError(f"there is no brick {name!r}; there is {known}")
+    if not bricks:
+        message = f"the domain `{theory.name}` has no device of kind `rcx`, for which a program could be generated"
+        help_ = 'add a block `device rcx "behaviours.nqc":` with the actions that the brick does'
+        raise UserError(Diagnostic(Code.NO_DEVICE, message, Span(theory.source, 0, 0), help=help_))
+    return bricks

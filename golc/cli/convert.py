@@ -1,0 +1,127 @@
+"""``golc convert``: a domain file as a theory in Python, and back."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from golc.cli.common import Console, completed, console_options
+
+if TYPE_CHECKING:
+    from golc.diagnostics import Findings, Source
+    from golc.syntax import tree
+
+
+@click.command(name="convert", short_help="Write a domain as Python, or Python as a domain.")
+@click.argument("file", metavar="FROM")
+@click.argument("target", metavar="TO", default="-")
+@click.option("-f", "--force", is_flag=True, help="Replace the file TO if it exists.")
+@console_options
+def command(console: Console, file: str, target: str, force: bool) -> int:
+    """Write the domain file FROM as a theory in Python, or a theory in Python (*.py) as a domain file.
+
+    Without TO, or with `-`, the text goes to standard output. A theory in Python is run. Comments are not carried over.
+
+    \b
+    golc convert examples/delivery/delivery.gl delivery.py
+    golc convert delivery.py delivery.gl
+    """
+    from golc.diagnostics import Findings, UserError
+    from golc.rendering import render
+
+    to_golc = Path(file).suffix == ".py"
+    if target != "-" and (Path(target).suffix == ".py") == to_golc:
+        raise click.UsageError(f"of `{file}` and `{target}` one has to end in `.py`, the other not")
+    findings = Findings()
+    try:
+        source, text = (_as_golc if to_golc else _as_python)(file, findings)
+    except UserError as error:
+        findings.diagnostics += error.diagnostics
+    for finding in findings.diagnostics:
+        console.err(render(finding, console.colored(sys.stderr)) + "\n")
+    if findings.has_errors or not _write(console, text, target, force):
+        return 1
+    if (_python_comments if to_golc else _golc_comments)(source.text):
+        console.note(f"the comments of `{file}` are not carried over")
+    return 0
+
+
+def _as_python(file: str, findings: Findings) -> tuple[Source, str]:
+    from golc.embed.printing import python_text
+    from golc.syntax.parse import parse_file
+    from golc.syntax.text import read_source
+
+    source = read_source(file)
+    tree = parse_file(source, findings)
+    return source, "" if tree is None else python_text(tree)
+
+
+def _as_golc(file: str, findings: Findings) -> tuple[Source, str]:
+    from golc.diagnostics import Source
+    from golc.embed.modules import read_theory
+    from golc.syntax.format import formatted
+    from golc.syntax.unparse import unparse
+
+    written = read_theory(file)
+    findings.diagnostics += written.findings.diagnostics
+    _refuse_nested_messages(written.file)
+    text = formatted(Source(f"<{file} as a domain>", unparse(written.file)), findings)
+    return written.sources[0], text or ""
+
+
+def _refuse_nested_messages(file: tree.File) -> None:
+    """Python can write a message inside a message, golc cannot. Raises ``UserError``."""
+    from golc.diagnostics import Code, Diagnostic, UserError
+    from golc.syntax.tree import Message
+    from golc.syntax.walk import descendants
+
+    for node in descendants(file):
+        if isinstance(node, Message):
+            _, *inside = descendants(node)
+            for part in inside:
+                if isinstance(part, Message):
+                    raise UserError(
+                        Diagnostic(Code.STRING, "a message inside a message has no text in golc", part.span)
+                    )
+
+
+def _write(console: Console, text: str, target: str, force: bool) -> bool:
+    """Write the text, all of it or nothing; whether that has gone well."""
+    if target == "-":
+        sys.stdout.write(text)
+        return True
+    path = Path(os.path.realpath(target))
+    if path.is_file() and not force:
+        console.err(f"error: `{target}` exists already\n  = help: `--force` replaces it")
+        return False
+    try:
+        with completed(path) as stream:
+            stream.write(text)
+    except OSError as error:
+        console.err(f"error: `{target}` cannot be written: {error.strerror or error}")
+        return False
+    if console.verbosity >= 0:
+        console.out(f"wrote {target}")
+    return True
+
+
+def _golc_comments(text: str) -> bool:
+    from golc.syntax.comments import lines
+
+    return any(row.comment is not None for line in lines(text) for row in line.rows)
+
+
+def _python_comments(text: str) -> bool:
+    """Whether there are comments, or docstrings, which say the same."""
+    import ast
+    import io
+    import tokenize
+
+    if any(token.type == tokenize.COMMENT for token in tokenize.generate_tokens(io.StringIO(text).readline)):
+        return True
+    documented = (ast.Module, ast.FunctionDef)
+    return any(ast.get_docstring(node) for node in ast.walk(ast.parse(text)) if isinstance(node, documented))

@@ -1,0 +1,132 @@
+"""Bodies of translated functions: what goes wrong in one statement does not hide the next."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import pairwise
+from typing import TypeVar
+
+from golc.diagnostics import Diagnostic, Span, counted
+from golc.embed import words
+from golc.embed.errors import Refused, meaningless
+from golc.embed.evaluate import NOT_PYTHON
+from golc.embed.expressions import Expressions
+from golc.embed.refusals import STATEMENTS
+from golc.syntax import tree
+
+T = TypeVar("T")
+
+
+class Bodies(Expressions):
+    """Translates statements; every finding about them is collected, and raised at the end."""
+
+    def returned(self) -> ast.expr:
+        """What a function returns whose only statement that is."""
+        body = self.function.body()
+        match body:
+            case [ast.Return(value=value)] if value is not None:
+                return value
+            case [ast.Return()]:
+                raise meaningless("nothing is returned", self.span(body[0]), "write `return` and a term")
+            case []:
+                help_ = "write `return` and a term"
+                raise meaningless(f"`{self.function.node.name}` returns nothing", self.function.name_span, help_)
+        for node, after in pairwise(body):
+            if isinstance(node, ast.Return):
+                raise meaningless("what follows a `return` is never reached", self._head(after))
+        first = next(node for node in body if not isinstance(node, ast.Return))
+        help_ = "write one `return` with the whole term; give parts of it names with `@theory.define`"
+        raise meaningless("the body of this function is one `return`", self._head(first), help_)
+
+    def each(self, nodes: Iterable[ast.stmt], translate: Callable[[ast.stmt], Iterable[T]]) -> tuple[T, ...]:
+        """What every statement becomes. Raises ``Refused`` with all findings at the end."""
+        made: list[T] = []
+        found: list[Diagnostic] = []
+        for node in nodes:
+            try:
+                made += translate(node)
+            except Refused as error:
+                found += error.diagnostics
+        if found:
+            raise Refused(*found)
+        return tuple(made)
+
+    def unrolled(self, node: ast.For, translate: Callable[[ast.stmt], Iterable[T]]) -> Iterator[T]:
+        """The statements of a loop of Python, once for each of its values."""
+        values = self.listed(node.iter)
+        if values is NOT_PYTHON or not isinstance(values, Iterable):
+            help_ = "Python goes through what it knows: a list, a tuple, a dictionary"
+            raise meaningless("there is nothing to go through here", self.span(node.iter), help_)
+        self.no_else(node)
+        for value in values:
+            before = dict(self.function.fixed)
+            self._assign(node.target, value)
+            yield from self.each(node.body, translate)
+            self.function.fixed.clear()
+            self.function.fixed.update(before)
+
+    def listed(self, node: ast.expr) -> object:
+        """What a loop of Python goes through: a value of Python, or a list that is written out."""
+        if isinstance(node, (ast.Tuple, ast.List)):
+            return [part.value if isinstance(part, ast.Constant) else self.python(part) for part in node.elts]
+        return self.python(node)
+
+    def _assign(self, target: ast.expr, value: object) -> None:
+        match target:
+            case ast.Name(id=name):
+                self.function.fixed[name] = value
+            case ast.Tuple(elts=parts) | ast.List(elts=parts) if isinstance(value, Sequence) and len(value) == len(
+                parts
+            ):
+                for part, each in zip(parts, value, strict=True):
+                    self._assign(part, each)
+            case _:
+                raise meaningless("the values do not fit these names", self.span(target))
+
+    def call_of(self, node: ast.expr, *expected: words.Word) -> words.Word | None:
+        """The word that a call calls, if it is one of those expected."""
+        if not isinstance(node, ast.Call):
+            return None
+        called = self.python(node.func)
+        return called if isinstance(called, words.Word) and called in expected else None
+
+    def targets(self, node: ast.expr, ranges: Sequence[ast.expr]) -> list[ast.Name]:
+        """The variables of a ``for``, one for each range."""
+        parts = node.elts if isinstance(node, (ast.Tuple, ast.List)) else [node]
+        names = [part for part in parts if isinstance(part, ast.Name)]
+        if len(names) != len(parts) or len(names) != len(ranges):
+            message = f"{counted(len(parts), 'variable')} for {counted(len(ranges), 'type')}"
+            raise meaningless(message, self.span(node), "write as many names as types: `for x, y in pick(t, u)`")
+        return names
+
+    def binders(self, target: ast.expr, ranges: Sequence[ast.expr]) -> tuple[tree.Binder, ...]:
+        """The variables of a ``for`` with what they range over; a range may use the variables before it."""
+        names = self.targets(target, ranges)
+        made = []
+        new = []
+        for name, over in zip(names, ranges, strict=True):
+            made.append(self.binder(name, over))
+            if name.id not in self.bound:
+                self.bound.add(name.id)
+                new.append(name.id)
+        self.bound.difference_update(new)
+        return tuple(made)
+
+    def no_else(self, node: ast.For | ast.While) -> None:
+        """A loop of the language has no ``else``."""
+        if node.orelse:
+            raise meaningless(
+                "a loop of a program has no `else`", self.span(node.orelse[0]), "write it behind the loop"
+            )
+
+    def refuse(self, node: ast.stmt) -> Refused:
+        """What to say of a statement that has no meaning where it stands."""
+        message, help_ = STATEMENTS.get(type(node), ("this has no meaning here", None))
+        return meaningless(message, self._head(node), help_)
+
+    def _head(self, node: ast.stmt) -> Span:
+        """The first line of a statement."""
+        span = self.span(node)
+        line = span.text.partition("\n")[0].rstrip()
+        return Span(span.source, span.start, span.start + len(line))

@@ -1,0 +1,151 @@
+"""What Python itself makes of an expression in a translated function: constants, attributes, plain functions."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Callable, Iterator
+from types import BuiltinFunctionType
+
+from golc.diagnostics import Code, Label, UserError
+from golc.embed.errors import meaningless, refused
+from golc.embed.functions import Function
+from golc.embed.names import golc_name
+from golc.embed.places import code_span, frame_span
+from golc.embed.terms import Named, Term, variable
+from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, enum, interval, optional, symbols, union
+from golc.embed.words import Value, Word
+from golc.theory.suggest import did_you_mean
+
+NOT_PYTHON = object()
+"""The answer for an expression that is one of the language."""
+
+_OURS = (interval, enum, union, optional, symbols, abs, all, any, len, list, max, min, set, sum)
+"""The functions that mean something in the language."""
+
+
+def _is_ours(value: object) -> bool:
+    """Whether a value is a function that means something in the language; terms have no ``==`` of Python's."""
+    return any(value is each for each in _OURS)
+
+
+def _holds_terms(value: object) -> bool:
+    """Whether a value is one of the language, or a collection with one in it."""
+    if isinstance(value, (list, tuple, set, frozenset)):
+        return any(_holds_terms(each) for each in value)
+    if isinstance(value, dict):
+        return any(_holds_terms(each) for each in (*value.keys(), *value.values()))
+    return isinstance(value, (Term, Word, Value, TypeForm)) or _is_ours(value) or _is_type(value)
+
+
+def _is_type(value: object) -> bool:
+    """Whether a value is a class that is also a type of the language."""
+    return any(value is each for each in BUILT_IN)
+
+
+class Evaluator:
+    """Evaluates what is Python's own in one function; ``bound`` tells which names are variables of the language."""
+
+    def __init__(self, function: Function, bound: Callable[[str], bool]) -> None:
+        self.function = function
+        self.bound = bound
+
+    def name(self, node: ast.Name) -> object:
+        """What a name stands for: a variable of the language, or what it is bound to in Python."""
+        return variable(golc_name(node.id)) if self.bound(node.id) else self.function.value_of(node)
+
+    def __call__(self, node: ast.expr) -> object:
+        """The value of an expression that Python can evaluate, else ``NOT_PYTHON``.
+
+        Attributes, subscripts and calls are Python's if they are those of a Python object; other operations if every
+        name in them stands for a constant of Python. Raises ``Refused`` where Python fails.
+        """
+        match node:
+            case ast.Name():
+                return self.name(node)
+            case ast.Attribute(value=owner) | ast.Subscript(value=owner):
+                base = self(owner)
+                if isinstance(base, TypeHandle) and isinstance(node, ast.Attribute):
+                    return self._symbol(base, node)
+                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or _is_type(base)
+                return NOT_PYTHON if ours else self._run(node)
+            case ast.Call(func=function):
+                called = self(function)
+                ours = called is NOT_PYTHON or isinstance(called, (Term, Word, Value))
+                if ours or (_is_ours(called) and not self._constant(node)):
+                    return NOT_PYTHON
+                value = self._run(node)
+                if value is None and isinstance(called, BuiltinFunctionType):
+                    message = f"`{called.__name__}` gives no value, and what it does is not a part of the theory"
+                    raise meaningless(message, self.function.place(node))
+                return value
+            case ast.Constant() | ast.Lambda():
+                return NOT_PYTHON
+        return self._run(node) if self._constant(node) else NOT_PYTHON
+
+    def _symbol(self, base: TypeHandle, node: ast.Attribute) -> object:
+        names = [value.name for value in base if isinstance(value, Named)]
+        if node.attr not in names:
+            message = f"the type `{base.name}` has no symbol `{node.attr}`"
+            raise refused(Code.UNKNOWN_NAME, message, self.function.place(node), did_you_mean(node.attr, names))
+        return getattr(base, node.attr)
+
+    def _constant(self, node: ast.expr) -> bool:
+        """Whether there are names in an expression that mean nothing in the language, and all in it is Python's."""
+        values = [self.name(each) for each in free_names(node)]
+        return not all(_is_ours(value) or _is_type(value) for value in values) and self._plain(node)
+
+    def _plain(self, node: ast.expr) -> bool:
+        match node:
+            case ast.Constant():
+                return True
+            case ast.BinOp(left=left, right=right):
+                return self._plain(left) and self._plain(right)
+            case ast.BoolOp(values=parts) | ast.List(elts=parts) | ast.Tuple(elts=parts) | ast.Set(elts=parts):
+                return all(self._plain(part) for part in parts)
+            case ast.Compare(left=left, comparators=others):
+                return all(self._plain(part) for part in (left, *others))
+            case ast.UnaryOp(operand=operand):
+                return self._plain(operand)
+            case ast.Name() | ast.Attribute() | ast.Subscript():
+                value = self(node)
+                return value is not NOT_PYTHON and not _holds_terms(value)
+        values = [self.name(each) for each in free_names(node)]
+        return not any(_holds_terms(value) for value in values if not _is_ours(value))
+
+    def _run(self, node: ast.expr) -> object:
+        names = {each.id: self.name(each) for each in free_names(node)}
+        code = compile(ast.Expression(node), self.function.source.name, "eval")
+        try:
+            return eval(code, {"__name__": self.function.function.__module__, **names})
+        except UserError:
+            raise
+        except Exception as error:
+            place = self.function.place(node)
+            labels = () if error.__traceback__ is None else _where(error)
+            message = f"Python fails here with {type(error).__name__}: {error}"
+            raise refused(Code.PYTHON_RAISED, message, place, labels=labels) from None
+
+
+def _where(error: Exception) -> tuple[Label, ...]:
+    """Where in a called function an error was raised."""
+    traceback = error.__traceback__
+    while traceback is not None and traceback.tb_next is not None:
+        traceback = traceback.tb_next
+    if traceback is None or traceback.tb_frame.f_code.co_name == "<module>":
+        return ()
+    frame = traceback.tb_frame
+    if not frame_span(frame).source.text:
+        return ()
+    source = frame_span(frame).source
+    return (Label(code_span(source, frame.f_code, traceback.tb_lasti, traceback.tb_lineno), "raised here"),)
+
+
+def free_names(node: ast.expr) -> Iterator[ast.Name]:
+    """The names of an expression that are not bound in it by a comprehension or a lambda."""
+    bound = {arg.arg for each in ast.walk(node) if isinstance(each, ast.Lambda) for arg in each.args.args}
+    for each in ast.walk(node):
+        if isinstance(each, ast.comprehension):
+            bound.update(target.id for target in ast.walk(each.target) if isinstance(target, ast.Name))
+    for each in ast.walk(node):
+        if isinstance(each, ast.Name) and isinstance(each.ctx, ast.Load) and each.id not in bound:
+            yield each

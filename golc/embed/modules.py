@@ -1,0 +1,140 @@
+"""Runs a Python file that holds a theory, and finds the theory in it."""
+
+from __future__ import annotations
+
+import contextlib
+import linecache
+import sys
+import traceback
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from types import ModuleType, TracebackType
+
+from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
+from golc.embed.errors import refused
+from golc.embed.places import code_span, line_span, offset, source_of
+from golc.embed.theory import Theory, Written
+
+HERE = str(Path(__file__).parent)
+
+
+def read_theory(path: str | Path) -> Written:
+    """The tree of the theory in a Python file, which is run.
+
+    What it prints goes to the standard error stream. Raises ``UserError`` if the file cannot be read or run, or does
+    not hold exactly one theory; what is wrong with translated functions is among the findings of what is returned.
+    """
+    name = str(path)
+    linecache.checkcache(name)
+    source = _checked(name)
+    module = ModuleType(f"golc_theory_{Path(path).stem}")
+    module.__file__ = name
+    try:
+        with _running(module, Path(path).parent):
+            exec(compile(source.text, name, "exec"), vars(module))
+    except (KeyboardInterrupt, MemoryError):
+        raise
+    except BaseException as error:
+        raise UserError(*_raised(error, source), *_found_so_far(vars(module), source)) from None
+    return _only_theory(vars(module), source).written()
+
+
+def _checked(name: str) -> Source:
+    """The source of a file that Python can compile."""
+    from golc.syntax.text import read_source
+
+    read_source(name, empty="a theory in Python begins with `from golc.embed import Theory`")
+    source = source_of(name)
+    try:
+        compile(source.text, name, "exec")
+    except SyntaxError as error:
+        raise UserError(_syntax(error, source)) from None
+    except (ValueError, RecursionError, MemoryError) as error:
+        raise refused(Code.PYTHON_SYNTAX, f"Python cannot read this: {error}", Span(source, 0, 0)) from None
+    return source
+
+
+def _syntax(error: SyntaxError, source: Source) -> Diagnostic:
+    line, column = error.lineno or 1, error.offset or 0
+    start = min(offset(source, line, 0) + max(0, column - 1), len(source.text))
+    end = start + 1
+    if error.end_lineno == line and (error.end_offset or 0) > column:
+        end = offset(source, line, 0) + (error.end_offset or 0) - 1
+    message = f"Python cannot read this: {error.msg}"
+    return Diagnostic(Code.PYTHON_SYNTAX, message, Span(source, start, min(end, len(source.text))))
+
+
+@contextlib.contextmanager
+def _running(module: ModuleType, folder: Path) -> Iterator[None]:
+    """The module can be found by its name and imports what lies beside it; the standard output is left to results."""
+    place = str(folder.resolve())
+    before = sys.modules.get(module.__name__)
+    sys.modules[module.__name__] = module
+    sys.path.insert(0, place)
+    try:
+        with contextlib.redirect_stdout(sys.stderr):
+            yield
+    finally:
+        sys.path.remove(place)
+        if before is None:
+            sys.modules.pop(module.__name__, None)
+        else:
+            sys.modules[module.__name__] = before
+
+
+def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
+    """What to say of an exception that running a theory has raised."""
+    if isinstance(error, UserError):
+        return error.diagnostics
+    places = list(_places(error.__traceback__))
+    own = [place for place in places if place.source is source]
+    place = own[-1] if own else (places[-1] if places else Span(source, 0, 0))
+    labels = [Label(each, "called here") for each in own[:1] if each is not place]
+    labels += [Label(each, "raised here") for each in places[-1:] if each is not place]
+    if isinstance(error, SyntaxError):
+        broken = source_of(error.filename or "")
+        if broken.text:
+            return (_syntax(error, broken),)
+    text = "".join(traceback.format_exception_only(error)).strip().splitlines()[-1]
+    help_ = "install it where golc runs, or put it beside this file" if isinstance(error, ImportError) else None
+    return (Diagnostic(Code.PYTHON_RAISED, f"Python fails here with {text}", place, labels=tuple(labels), help=help_),)
+
+
+def _places(where: TracebackType | None) -> Iterator[Span]:
+    """The places of a traceback in files outside this package whose source is there."""
+    for frame, line in traceback.walk_tb(where):
+        code = frame.f_code
+        if not code.co_filename.startswith((HERE, "<frozen")) and (source := source_of(code.co_filename)).text:
+            instruction = where.tb_lasti if where is not None and where.tb_frame is frame else -1
+            yield code_span(source, code, instruction, line) if instruction >= 0 else line_span(source, line)
+        where = None if where is None else where.tb_next
+
+
+def _theories(names: Mapping[str, object]) -> list[Theory]:
+    found: list[Theory] = []
+    for value in names.values():
+        if isinstance(value, Theory) and not any(value is each for each in found):
+            found.append(value)
+    return found
+
+
+def _found_so_far(names: Mapping[str, object], source: Source) -> tuple[Diagnostic, ...]:
+    """What is wrong with the functions of theories that a failing file has begun, as far as names are not to blame."""
+    found = [diagnostic for theory in _theories(names) for diagnostic in theory.written().findings.diagnostics]
+    return tuple(each for each in found if each.code not in (Code.UNKNOWN_NAME, Code.UNKNOWN_ACTION))
+
+
+def _only_theory(names: Mapping[str, object], source: Source) -> Theory:
+    theories = _theories(names)
+    main = names.get("theory")
+    if isinstance(main, Theory):
+        return main
+    if len(theories) == 1:
+        return theories[0]
+    start = Span(source, 0, 0)
+    if not theories:
+        help_ = 'begin it with `from golc.embed import Theory` and `theory = Theory("delivery")`'
+        raise refused(Code.NO_THEORY, "the file makes no theory", start, help_)
+    several = ", ".join(f"`{theory.name}`" for theory in theories)
+    help_ = "name the one that is meant `theory`"
+    raise refused(Code.NO_THEORY, f"the file makes several theories: {several}", start, help_)

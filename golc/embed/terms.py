@@ -1,0 +1,313 @@
+"""Terms and formulas outside translated functions: Python's operators build the tree.
+
+What Python would answer at once (``and``, ``or``, ``not``, ``if``, a chain of comparisons, ``in``) cannot be asked of a
+term, whose value depends on the situation: it is refused at its place.
+"""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from decimal import Decimal
+from typing import Any, NoReturn
+
+from golc.diagnostics import NOWHERE, Code, Span
+from golc.embed.errors import Refused, meaningless, refused
+from golc.embed.places import caller, calling_frame, frame_span, node_at, span_of
+from golc.syntax import tree
+from golc.theory.suggest import did_you_mean
+
+SIGNS = "write `&`, `|` and `~` with each comparison in parentheses; or write it in a translated function"
+
+
+class Term:
+    """A term or formula of the language; its ``node`` is the tree that was built."""
+
+    __slots__ = ("node",)
+
+    def __init__(self, node: tree.Expr) -> None:
+        self.node = node
+
+    def __repr__(self) -> str:
+        from golc.syntax.unparse import unparse_expression
+
+        return unparse_expression(self.node)
+
+    __hash__ = object.__hash__
+
+    def __eq__(self, other: object) -> Term:  # type: ignore[override]
+        return binary("=", self, other)
+
+    def __ne__(self, other: object) -> Term:  # type: ignore[override]
+        return binary("!=", self, other)
+
+    def __lt__(self, other: object) -> Term:
+        return binary("<", self, other)
+
+    def __le__(self, other: object) -> Term:
+        return binary("<=", self, other)
+
+    def __gt__(self, other: object) -> Term:
+        return binary(">", self, other)
+
+    def __ge__(self, other: object) -> Term:
+        return binary(">=", self, other)
+
+    def __add__(self, other: object) -> Term:
+        return binary("+", self, other)
+
+    def __radd__(self, other: object) -> Term:
+        return binary("+", other, self)
+
+    def __sub__(self, other: object) -> Term:
+        return binary("-", self, other)
+
+    def __rsub__(self, other: object) -> Term:
+        return binary("-", other, self)
+
+    def __mul__(self, other: object) -> Term:
+        return binary("*", self, other)
+
+    def __rmul__(self, other: object) -> Term:
+        return binary("*", other, self)
+
+    def __floordiv__(self, other: object) -> Term:
+        return binary("//", self, other)
+
+    def __rfloordiv__(self, other: object) -> Term:
+        return binary("//", other, self)
+
+    def __mod__(self, other: object) -> Term:
+        return binary("%", self, other)
+
+    def __rmod__(self, other: object) -> Term:
+        return binary("%", other, self)
+
+    def __and__(self, other: object) -> Term:
+        return binary("and", self, other)
+
+    def __rand__(self, other: object) -> Term:
+        return binary("and", other, self)
+
+    def __or__(self, other: object) -> Term:
+        return binary("or", self, other)
+
+    def __ror__(self, other: object) -> Term:
+        return binary("or", other, self)
+
+    def __invert__(self) -> Term:
+        return unary("not", self)
+
+    def __neg__(self) -> Term:
+        return unary("-", self)
+
+    def __abs__(self) -> Term:
+        return function("abs", (self,))
+
+    def __getitem__(self, index: object) -> Term:
+        span, (base, at) = _place(2)
+        return Term(tree.Index(expr(self, base), expr(index, at), span=span))
+
+    def __getattr__(self, name: str) -> NoReturn:
+        raise AttributeError(f"a term has no attribute `{name}`", name=name, obj=self)
+
+    def __bool__(self) -> bool:
+        _no_truth()
+
+    def __iter__(self) -> Iterator[Term]:
+        raise meaningless("Python cannot go through a term, whose value depends on the situation", caller())
+
+    def __contains__(self, item: object) -> bool:
+        span = caller()
+        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
+        raise meaningless("Python's `in` answers at once, before there is a situation", span, help_)
+
+    def __len__(self) -> int:
+        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
+        raise meaningless("Python's `len` answers at once, before there is a situation", caller(), help_)
+
+
+class Named(Term):
+    """What a name of the theory stands for: a constant, symbol, fluent, action, procedure, …, a variable.
+
+    ``parameters`` are the names of its arguments where they are known.
+    """
+
+    __slots__ = ("kind", "name", "parameters")
+
+    def __init__(self, name: str, kind: str, parameters: tuple[str, ...] = (), span: Span = NOWHERE) -> None:
+        super().__init__(tree.Apply(tree.Ident(name, span=span), (), span=span))
+        self.name = name
+        self.kind = kind
+        self.parameters = parameters
+
+    def __call__(self, *args: object, **named: object) -> Term:
+        """The name applied to arguments, by place or by the names of the parameters."""
+        frame = calling_frame()
+        span = frame_span(frame)
+        call = node_at(span)
+        if isinstance(call, ast.Call):
+            places = [span_of(span.source, arg) for arg in call.args]
+            head = span_of(span.source, call.func)
+        else:
+            places, head = [], span
+        given = tuple(named.items())
+        ordered = in_order(self, args, given, span)
+        exact = len(places) == len(ordered)
+        nodes = tuple(expr(value, places[i] if exact else span) for i, value in enumerate(ordered))
+        return Term(tree.Apply(tree.Ident(self.name, span=head), nodes, span=span))
+
+
+def in_order(
+    named: Named, args: Iterable[object], given: Iterable[tuple[str, object]], span: Span
+) -> tuple[object, ...]:
+    """The arguments of a call in the order of the parameters. Raises ``Refused`` for a name that is none of them."""
+    ordered = list(args)
+    rest = dict(given)
+    wrong = next((name for name in rest if name not in named.parameters[len(ordered) :]), None)
+    if wrong is not None:
+        raise _no_parameter(named, wrong, span)
+    for parameter in named.parameters[len(ordered) :] if rest else ():
+        if parameter not in rest:
+            raise refused(Code.ARITY, f"`{named.name}` has no value for its parameter `{parameter}`", span)
+        ordered.append(rest.pop(parameter))
+    return tuple(ordered)
+
+
+def _no_parameter(named: Named, wrong: str, span: Span) -> Refused:
+    """An argument has the name of no parameter, or of one that has a value by its place."""
+    known = ", ".join(f"`{parameter}`" for parameter in named.parameters) or "none"
+    help_ = did_you_mean(wrong, named.parameters) or f"its parameters are: {known}"
+    twice = wrong in named.parameters
+    message = f"`{wrong}` of `{named.name}` has two values" if twice else f"`{named.name}` has no parameter `{wrong}`"
+    return refused(Code.ARITY, message, span, None if twice else help_)
+
+
+def variable(name: str, span: Span = NOWHERE) -> Named:
+    """A bound variable."""
+    return Named(name, "variable", (), span)
+
+
+def binary(sign: Any, left: object, right: object) -> Term:
+    """An infix operation at the place where Python computes it."""
+    span, (first, second) = _place(2)
+    return Term(tree.Binary(sign, expr(left, first), expr(right, second), span=span))
+
+
+def unary(sign: Any, operand: object) -> Term:
+    """A prefix operation at the place where Python computes it."""
+    span, (place,) = _place(1)
+    return Term(tree.Unary(sign, expr(operand, place), span=span))
+
+
+def function(name: str, args: tuple[object, ...]) -> Term:
+    """A function of the language applied to arguments."""
+    span, places = _place(len(args))
+    nodes = tuple(expr(arg, place) for arg, place in zip(args, places, strict=True))
+    return Term(tree.Apply(tree.Ident(name, span=span), nodes, span=span))
+
+
+def _place(count: int) -> tuple[Span, list[Span]]:
+    """Where Python is computing, and where its operands are written (all of it where that cannot be told)."""
+    span = caller()
+    source = span.source
+    parts: list[ast.expr] = []
+    match node_at(span):
+        case ast.BinOp(left=left, right=right):
+            parts = [left, right]
+        case ast.Compare(left=left, comparators=[right]):
+            parts = [left, right]
+        case ast.UnaryOp(operand=operand):
+            parts = [operand]
+        case ast.Subscript(value=value, slice=index):
+            parts = [value, index]
+        case ast.Call(args=args):
+            parts = args
+    return span, [span_of(source, part) for part in parts] if len(parts) == count else [span] * count
+
+
+def expr(value: object, span: Span) -> tree.Expr:
+    """The tree of a Python value that means something in a theory; a name and a literal stand at ``span``.
+
+    Raises ``Refused`` for a value that means nothing.
+    """
+    match value:
+        case Named():
+            return tree.Apply(tree.Ident(value.name, span=span), (), span=span)
+        case Term():
+            return value.node
+        case bool():
+            return tree.Truth(value, span=span)
+        case int():
+            number = tree.Number(abs(value), span=span)
+            return number if value >= 0 else tree.Unary("-", number, span=span)
+        case float() | Decimal():
+            return _real(value, span)
+        case str():
+            return tree.Message((value,) if value else (), span=span)
+        case None:
+            return tree.Nothing(span=span)
+        case set() | frozenset():
+            return tree.SetLiteral(tuple(expr(element, span) for element in sorted(value, key=repr)), span=span)
+        case list() | tuple() | range():
+            return tree.ListLiteral(tuple(expr(element, span) for element in value), span=span)
+    as_term = getattr(value, "as_term", None)
+    if as_term is not None:
+        return expr(as_term(), span)
+    raise refused(Code.PYTHON_VALUE, f"{described(value)} means nothing in a theory", span, _instead(value))
+
+
+def _real(value: float | Decimal, span: Span) -> tree.Expr:
+    number = Decimal(repr(value)) if isinstance(value, float) else value
+    if not number.is_finite():
+        raise refused(Code.PYTHON_VALUE, f"{value} is no number of the language", span)
+    digits = Decimal(format(abs(number), "f"))
+    real = tree.Real(digits if digits.as_tuple().exponent else digits.quantize(Decimal("0.1")), span=span)
+    return real if number >= 0 else tree.Unary("-", real, span=span)
+
+
+def described(value: object) -> str:
+    """What a Python value is, for a message."""
+    match value:
+        case type():
+            return f"the Python class `{value.__name__}`"
+        case dict():
+            return "a dictionary"
+    name = getattr(value, "__name__", None)
+    if callable(value) and isinstance(name, str):
+        return f"the Python function `{name}`"
+    return f"a Python value of type `{type(value).__name__}`"
+
+
+def _instead(value: object) -> str:
+    if isinstance(value, dict):
+        return "a table is the value of a static: `theory.static(…)`"
+    if callable(value):
+        return "call it, or declare it with a decorator of the theory"
+    return "numbers, strings, truth values, `None`, lists, sets and what the theory declares can stand here"
+
+
+def restated(value: object, span: Span) -> Any:
+    """A term as if it were written at a place: names stand there, what was built elsewhere keeps its place."""
+    node = expr(value, span)
+    return replace(node, span=span) if node.span is NOWHERE else node
+
+
+def _no_truth() -> NoReturn:
+    """Python asks a term for its truth."""
+    span = caller()
+    node = node_at(span)
+    what = "`if`, `and`, `or`, `not` and a chain of comparisons ask a term for its truth"
+    help_ = SIGNS
+    match node:
+        case ast.Compare(ops=ops) if len(ops) > 1:
+            what = "a chain of comparisons asks a term for its truth"
+            help_ = "write two comparisons: `(a <= x) & (x <= b)`; or write it in a translated function"
+        case ast.BoolOp(op=op):
+            word, sign = ("and", "&") if isinstance(op, ast.And) else ("or", "|")
+            what = f"`{word}` asks a term for its truth"
+            help_ = f"write `(…) {sign} (…)`, or write it in a translated function"
+        case ast.UnaryOp(op=ast.Not()):
+            what, help_ = "`not` asks a term for its truth", "write `~(…)`, or write it in a translated function"
+    raise refused(Code.PYTHON_TRUTH, f"{what} now, before there is a situation", span, help_)

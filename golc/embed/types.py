@@ -1,0 +1,223 @@
+"""Types as Python objects: handles of declared types, and the forms of the language that need no name."""
+
+from __future__ import annotations
+
+import typing
+from collections.abc import Callable, Iterable, Iterator
+from types import UnionType
+from typing import Any
+
+from golc.diagnostics import Code, Span
+from golc.embed.errors import meaningless, refused
+from golc.embed.names import new_name
+from golc.embed.places import caller
+from golc.embed.terms import Named, Term, described, expr
+from golc.syntax import tree
+
+BUILT_IN: dict[object, str] = {bool: "bool", int: "int", float: "real", str: "string"}
+"""Python's types for those that are built into the language."""
+
+
+class TypeForm:
+    """A type of the language; its ``node`` is the tree."""
+
+    __slots__ = ("node",)
+
+    def __init__(self, node: tree.Type) -> None:
+        self.node = node
+
+    def __repr__(self) -> str:
+        from golc.syntax.notation import type_text
+
+        return type_text(self.node)
+
+    def __or__(self, other: object) -> TypeForm:
+        """``t | None`` is the optional type, ``t | u`` the union."""
+        return joined((self, other), caller())
+
+    def __ror__(self, other: object) -> TypeForm:
+        return joined((other, self), caller())
+
+    def __contains__(self, item: object) -> bool:
+        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
+        raise meaningless("Python's `in` answers at once, before there is a situation", caller(), help_)
+
+
+class TypeHandle(TypeForm):
+    """A declared type. Going through it gives its symbols and integers in order; ``phase.moving`` is a symbol."""
+
+    __slots__ = ("_listed", "_look_up", "name", "value")
+
+    def __init__(self, name: str, value: tree.Type, look_up: Callable[[str], object]) -> None:
+        super().__init__(tree.TypeName(tree.Ident(name)))
+        self.name = name
+        self.value = value
+        self._look_up = look_up
+        self._listed: list[Named | int] | None = None
+
+    def as_term(self) -> Named:
+        """The type's name as the list of its values."""
+        return Named(self.name, "type")
+
+    def __iter__(self) -> Iterator[Named | int]:
+        # The same symbols every time: they may be keys of a dictionary.
+        if self._listed is None:
+            self._listed = self._values(self.value)
+        return iter(self._listed)
+
+    def __len__(self) -> int:
+        return len(list(self))
+
+    def __getattr__(self, name: str) -> Named:
+        if not name.startswith("_"):
+            for value in self:
+                if isinstance(value, Named) and value.name == name:
+                    return value
+        raise AttributeError(f"the type `{self.name}` has no symbol `{name}`", name=name, obj=self)
+
+    def _values(self, node: tree.Type) -> list[Named | int]:
+        match node:
+            case tree.EnumType(elements=elements):
+                return [e.value if isinstance(e, tree.Number) else Named(e.text, "symbol") for e in elements]
+            case tree.IntervalType(low=low, high=high):
+                first, last = self._bound(low), self._bound(high)
+                return list(range(first, last + 1))
+            case tree.UnionType(pieces=pieces):
+                return [value for piece in pieces for value in self._values(piece)]
+            case tree.TypeName(name=name):
+                other = self._look_up(name.text)
+                if isinstance(other, TypeHandle):
+                    return list(other)
+        raise meaningless(f"the values of `{self.name}` cannot be listed here", caller())
+
+    def _bound(self, node: tree.Expr) -> int:
+        match node:
+            case tree.Number(value=value):
+                return value
+            case tree.Unary(op="-", operand=tree.Number(value=value)):
+                return -value
+            case tree.Apply(name=name, args=()):
+                const = self._look_up(name.text)
+                if isinstance(const, tree.Number):
+                    return const.value
+        help_ = "go through them in a translated function, or keep the bound as a number of Python"
+        raise meaningless(f"the values of `{self.name}` are not known before its constants are", caller(), help_)
+
+
+def interval(low: object, high: object) -> TypeForm:
+    """``low .. high``: the integers from one bound to the other, both included; bounds may be terms of constants."""
+    span = caller()
+    return TypeForm(tree.IntervalType(expr(low, span), expr(high, span), span=span))
+
+
+def enum(*elements: object) -> TypeForm:
+    """``{a, b}``: symbols, named by strings, or integers, in their order."""
+    span = caller()
+    return TypeForm(tree.EnumType(tuple(element(each, span) for each in elements), span=span))
+
+
+def element(value: object, span: Span) -> tree.Ident | tree.Number:
+    """An element of an enumeration. Raises ``Refused``."""
+    match value:
+        case str():
+            return new_name(value, span)
+        case TypeHandle() | Named() if not (isinstance(value, Named) and value.kind == "variable"):
+            return tree.Ident(value.name, span=span)
+        case int() if not isinstance(value, bool):
+            return tree.Number(value, span=span)
+    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, "write a string")
+
+
+def union(*pieces: object) -> TypeForm:
+    """``a + b``: every value of several types; a string names a type that is declared further down."""
+    return joined(pieces, caller())
+
+
+def optional(base: object) -> TypeForm:
+    """``t?``: a type and the value ``None``; a string names a type that is declared further down."""
+    return joined((base, None), caller())
+
+
+def symbols(*names: str) -> Any:
+    """The symbols of enumerations that have no name: ``red, green = symbols("red", "green")``; of one name itself."""
+    span = caller()
+    return _one_or_all(Named(new_name(name, span).text, "symbol") for name in names)
+
+
+def names(*names: str) -> Any:
+    """What an imported file declares, types apart: ``bed, water = names("bed", "water")``; of one name itself."""
+    span = caller()
+    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name in names)
+
+
+def types(*names: str) -> Any:
+    """The types that an imported file declares: ``row, soil = types("row", "soil")``; of one name itself."""
+    span = caller()
+    return _one_or_all(elsewhere(new_name(name, span, used=True)) for name in names)
+
+
+def elsewhere(name: tree.Ident) -> TypeHandle:
+    """A type of which no more than its name is known."""
+    return TypeHandle(name.text, tree.TypeName(name), lambda _: None)
+
+
+def _one_or_all(things: Iterable[object]) -> object:
+    one, *others = found = tuple(things)
+    return found if others else one
+
+
+def joined(parts: tuple[object, ...], span: Span) -> TypeForm:
+    """The union of some types, with ``None`` among them the optional type of the others."""
+    pieces: list[tree.Type] = []
+    for part in parts:
+        if part is not None:
+            node = type_node(part, span)
+            pieces += node.pieces if isinstance(node, tree.UnionType) else [node]
+    return TypeForm(join_nodes(pieces, None in parts, span))
+
+
+def join_nodes(pieces: list[tree.Type], nothing: bool, span: Span) -> tree.Type:
+    """The tree of a union, or of the optional type of one. Raises ``Refused`` where a piece cannot be one."""
+    inner: list[tree.TypeName | tree.IntervalType | tree.EnumType] = []
+    for piece in pieces:
+        if isinstance(piece, tree.OptionalType) and (len(pieces) > 1 or nothing):
+            raise meaningless("`None` can stand only at the end of a union, once", span)
+        if isinstance(piece, (tree.TypeName, tree.IntervalType, tree.EnumType)):
+            inner.append(piece)
+        elif len(pieces) > 1:
+            raise meaningless("a set or a list cannot be joined with another type", span)
+    whole: tree.Type = pieces[0] if len(pieces) == 1 else tree.UnionType(tuple(inner), span=span)
+    return tree.OptionalType(whole, span=span) if nothing else whole
+
+
+def type_node(value: object, span: Span) -> tree.Type:
+    """The tree of a Python object that stands for a type; a string names one that is declared somewhere.
+
+    Raises ``Refused`` for anything else.
+    """
+    match value:
+        case TypeHandle(name=name):
+            return tree.TypeName(tree.Ident(name, span=span), span=span)
+        case TypeForm(node=node):
+            return node
+        case str():
+            return tree.TypeName(new_name(value, span), span=span)
+        case UnionType():
+            return joined(tuple(None if arg is type(None) else arg for arg in typing.get_args(value)), span).node
+        case range(start=start, stop=stop, step=1):
+            return interval(start, stop - 1).node
+    help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
+    if isinstance(value, Term):
+        raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
+    if isinstance(value, type) and value in BUILT_IN:
+        return tree.TypeName(tree.Ident(BUILT_IN[value], span=span), span=span)
+    if value is type(None):
+        raise meaningless("`None` alone is no type", span, "write `t | None` for a type and the value `None`")
+    origin, args = typing.get_origin(value), typing.get_args(value)
+    if origin is typing.Union:
+        return joined(tuple(None if arg is type(None) else arg for arg in args), span).node
+    if origin in (set, list) and len(args) == 1:
+        return tree.CollectionType("set" if origin is set else "list", type_node(args[0], span), span=span)
+    if value in (set, list):
+        raise meaningless("a set or a list needs the type of its elements", span, "write `set[station]`")
+    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no type of the language", span, help_)

@@ -1,0 +1,146 @@
+"""Questions about the states that can be reached, instead of all situations of the right types."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from functools import partial
+
+from golc.proofs.asking import Asking, Leaf
+from golc.proofs.cases import Case, explore
+from golc.proofs.domains import Domain
+from golc.proofs.effort import Effort
+from golc.proofs.prover import Prover
+from golc.proofs.questions import Afterwards, Asked, Question, Step, Undecided, Witness, terms_of
+from golc.proofs.reachable import MOST_EFFORT, Reached, reachable
+from golc.proofs.smallest import rank, reduced
+from golc.proofs.symbols import NotDecidedError
+from golc.situation.worlds import ASK, Readable, State, survey
+from golc.theory.reading import reached as reached_terms
+from golc.theory.terms import Epistemic
+from golc.theory.theory import BasicActionTheory
+from golc.theory.types import BOOL, Value
+
+SECONDS = 4.0
+"""How long to look for witnesses among the states, for all questions together."""
+
+MORE_WITNESSES = 50
+"""How many more are looked at in states that take as many actions, for a smaller one."""
+
+
+class Among:
+    """Answers questions as a ``Prover`` does, but only with states that can be reached, as far as these are known."""
+
+    def __init__(self, theory: BasicActionTheory) -> None:
+        self._theory = theory
+        self._everywhere = Prover(theory)
+        self._asking = Asking(theory, ASK)
+        self._first = self._asking.layout.size
+        self._effort = Effort(theory)
+        self._states, self.scope = reachable(theory)
+        self._left = SECONDS
+
+    def answer(self, question: Question, small: bool = True) -> Witness | Undecided | None:
+        """A witness that takes as few actions as possible, with these; none if there is provably none.
+
+        Where it is not known whether a witness can be reached, one of all situations.
+        """
+        answer = self._everywhere.answer(question, small)
+        if answer is None or self._is_too_much(question):
+            return answer
+        started = time.monotonic()
+        try:
+            found = self._search(question, small, started + self._left)
+        except NotDecidedError:
+            return answer
+        finally:
+            self._left -= time.monotonic() - started
+        return found or (None if self.scope.whole else answer)
+
+    def _is_too_much(self, question: Question) -> bool:
+        """Whether it takes too long to evaluate, or depends on what is known after an action."""
+        after = any(isinstance(step, Afterwards) and self._is_about_knowledge(step) for step in question.steps)
+        terms = [term for step in question.steps for term in terms_of(self._theory, step)]
+        return after or self._effort.of(terms) > MOST_EFFORT
+
+    def _search(self, question: Question, small: bool, deadline: float) -> Witness | None:
+        found: list[tuple[Reached, Case, Leaf]] = []
+        for reached in self._states:
+            if found and (not small or reached.actions > found[0][0].actions or len(found) >= MORE_WITNESSES):
+                break
+            if time.monotonic() > deadline:
+                raise NotDecidedError("it takes too long to look for a witness in the states that can be reached")
+            found += [(reached, case, leaf) for case, leaf in self._witnesses(question, reached.state)]
+        shown = [(*self._shown(question, case, leaf), reached.way) for reached, case, leaf in found[:MORE_WITNESSES]]
+        if not shown:
+            return None
+        _, witness, way = min(shown, key=lambda each: each[0])
+        return replace(witness, way=way)
+
+    def _witnesses(self, question: Question, state: State) -> Iterator[tuple[Case, Leaf]]:
+        """The cases of a state, and of each world in it, in which what is asked is so."""
+        domains = dict(enumerate(self._asking.domains_of(question)[self._first :], start=self._first))
+        acts = Question(question.variables, tuple(_known(question.steps)))
+        known = (acts, replace(acts, fails=True)) if question.fails else (acts,)
+
+        def ask(world: Readable) -> list[tuple[Case, Leaf]]:
+            def leaf(case: Case) -> Leaf:
+                if any(self._asking.verdict(each, case) for each in known):
+                    return self._asking.leaf(question, case, assuming=False)
+                return Leaf({}, None)
+
+            every = explore(partial(_Situation, world, self._first, domains), leaf)
+            return [(case, leaf) for case, leaf in every if leaf.is_witness]
+
+        for _, found in survey(state, ask):
+            yield from found
+
+    def _shown(self, question: Question, case: Case, leaf: Leaf) -> tuple[tuple[int, int], Witness]:
+        """A witness with the values that matter, and how large it is: how many values, and how large they are."""
+        values = case.values()
+        matter = None
+        if not case.open and not any(map(self._is_about_knowledge, question.steps)):
+            matter = reduced(self._asking, question, values, leaf.answer)
+        domains = self._asking.domains_of(question)
+        kept = {*values} if matter is None else matter
+        shown = {slot: value for slot, value in values.items() if slot in kept or slot >= self._first}
+        size = sum(rank(value, domains[slot]) for slot, value in shown.items())
+        fluents = sum(slot < self._first for slot in shown)
+        return (fluents, size), self._asking.witness(question, domains, shown, leaf.error)
+
+    def _is_about_knowledge(self, step: Step) -> bool:
+        terms = terms_of(self._theory, step)
+        return any(isinstance(part, Epistemic) for part in reached_terms(self._theory, terms))
+
+
+class _Situation(Case):
+    """A world, with variables that are decided while they are read."""
+
+    def __init__(
+        self, world: Readable, first: int, domains: Mapping[int, Domain], decisions: list[tuple[int, int]]
+    ) -> None:
+        super().__init__(domains, decisions)
+        self._world = world
+        self._first = first
+
+    @property
+    def state(self) -> State:
+        """What the agent knows."""
+        return self._world if isinstance(self._world, tuple) else self._world.state
+
+    def __getitem__(self, slot: int) -> Value:
+        slot = int(slot)
+        if slot >= self._first:
+            return super().__getitem__(slot)
+        self.look()
+        if slot not in self.cells:
+            self.cells[slot] = self._world[slot]
+        return self.cells[slot]
+
+
+def _known(steps: tuple[Step, ...]) -> Iterator[Step]:
+    """What an agent has to know for an action."""
+    for step in steps:
+        if isinstance(step, Asked) and step.known:
+            yield Asked(Epistemic("knows", step.term, type=BOOL, span=step.term.span), step.env)

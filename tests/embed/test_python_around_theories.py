@@ -1,0 +1,310 @@
+"""Python around a theory works as a Python programmer expects: loops, functions, dictionaries, files, other modules."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from golc.diagnostics import Diagnostic
+from golc.embed.modules import read_theory
+from golc.syntax.unparse import unparse
+
+Text = Callable[[str], str]
+Wrong = Callable[[str], list[Diagnostic]]
+
+
+def test_a_loop_declares_a_family_of_fluents_and_actions(text_of: Text) -> None:
+    text = text_of(
+        """
+        from golc.embed import Theory, causes, poss
+
+        theory = Theory("lamps")
+        lamps = []
+        for k in range(2):
+            lamps.append(theory.fluent(f"lamp{k}", initial=False))
+
+            @theory.action(name=f"toggle{k}")
+            def toggle(lamp=lamps[k]):
+                poss(not lamp)
+                causes(lamp, True)
+        theory.goal("bright", lamps[0] & lamps[1])
+        """
+    )
+
+    assert text == (
+        "domain lamps\n\nfluent lamp0 = false\n\naction toggle0:\n    poss not lamp0\n    causes lamp0 := true\n\n"
+        "fluent lamp1 = false\n\naction toggle1:\n    poss not lamp1\n    causes lamp1 := true\n\n"
+        "goal bright: lamp0 and lamp1\n"
+    )
+
+
+def test_the_variable_of_a_loop_has_to_be_given(wrong_with: Wrong) -> None:
+    found = wrong_with(
+        """
+        from golc.embed import Theory, causes
+
+        theory = Theory("lamps")
+        level = theory.fluent("level", int, 0)
+        for k in range(3):
+
+            @theory.action(name=f"set{k}")
+            def set_level():
+                causes(level, k)
+        """
+    )
+
+    assert [(each.code.code, each.message, each.span.line, each.span.text) for each in found] == [
+        ("GL145", "`k` was 0 when the function was declared and is 2 now", 10, "k"),
+        ("GL145", "`k` was 1 when the function was declared and is 2 now", 10, "k"),
+    ]
+    assert found[0].help == "give it to the function as a default: `def set_level(…, k=k)`"
+
+
+def test_a_mutable_default_is_refused(wrong_with: Wrong) -> None:
+    (found,) = wrong_with(
+        """
+        from golc.embed import Theory, causes
+
+        theory = Theory("lamps")
+        level = theory.fluent("level", int, 0)
+
+        @theory.action
+        def raise_it(steps=[1, 2]):
+            causes(level, steps[0])
+        """
+    )
+
+    assert (found.code.code, found.span.text) == ("GL143", "steps")
+    assert found.message == "the default of `steps` is a list, which may change after the function was declared"
+
+
+def test_a_function_makes_theories_by_its_arguments(text_of: Text) -> None:
+    text = text_of(
+        """
+        from __future__ import annotations
+
+        from golc.embed import Theory, causes, interval, poss
+
+        def lift(floors, name="lift"):
+            made = Theory(name)
+            floor = made.type("floor", interval(1, floors))
+            at = made.fluent("at", floor, 1)
+
+            @made.action
+            def go(to: floor):
+                poss(to != at and to <= floors - 1)
+                causes(at, to)
+
+            return made
+
+        small, theory = lift(3), lift(9, "tower")
+        """
+    )
+
+    assert text == (
+        "domain tower\n\ntype floor = 1..9\n\nfluent at: floor = 1\n\n"
+        "action go(to: floor):\n    poss to != at and to <= 8\n    causes at := to\n"
+    )
+
+
+def test_a_theory_is_built_from_a_table_of_text(text_of: Text) -> None:
+    text = text_of(
+        """
+        import csv, io
+
+        from golc.embed import Theory, enum
+
+        MAP = "hall,kitchen,4\\nkitchen,garden,7\\n"
+        theory = Theory("house")
+        roads = [(a, b, int(d)) for a, b, d in csv.reader(io.StringIO(MAP))]
+        names = sorted({place for a, b, _ in roads for place in (a, b)})
+        room = theory.type("room", enum(*names))
+        rooms = dict(zip(names, room))
+        near = {(rooms[a], rooms[b]): d for a, b, d in roads}
+        table = {(x, y): near.get((x, y), 0) for x in room for y in room}
+        length = theory.static("length", int, table, parameters={"a": room, "b": room})
+        at = theory.fluent("at", room, rooms["hall"])
+
+        @theory.define
+        def near_kitchen():
+            return length(at, rooms["kitchen"]) > 0
+        """
+    )
+
+    assert "type room = {garden, hall, kitchen}" in text
+    assert "(hall, kitchen): 4" in text
+    assert "(kitchen, garden): 7" in text
+    assert "(garden, garden): 0" in text
+    assert "fluent at: room = hall" in text
+    assert "define near_kitchen := length(at, kitchen) > 0" in text
+
+
+def test_plain_functions_build_terms_where_they_are_called(text_of: Text) -> None:
+    text = text_of(
+        """
+        from golc.embed import Theory, causes, interval, poss
+
+        def between(low, x, high):
+            return (low <= x) & (x <= high)
+
+        LIMITS = {"low": 2, "high": 5}
+        theory = Theory("lift")
+        floor = theory.type("floor", interval(1, 6))
+        at = theory.fluent("at", floor, 3)
+
+        @theory.action
+        def go(to: floor):
+            poss(between(LIMITS["low"], to, LIMITS["high"] - 1))
+            causes(at, to)
+        """
+    )
+
+    assert "poss to >= 2 and to <= 4" in text
+
+
+def test_a_condition_of_python_chooses_a_part_of_the_program(text_of: Text) -> None:
+    text = text_of(
+        """
+        from golc.embed import Theory, say
+
+        LOUD, LEVELS = False, ("low", "high")
+        theory = Theory("d")
+
+        @theory.action
+        def up():
+            pass
+
+        @theory.action
+        def down():
+            pass
+
+        @theory.proc
+        def control():
+            if LOUD:
+                say("beginning")
+            else:
+                pass
+            for act in (up, down):
+                act()
+            for level in LEVELS:
+                say(f"at {level}")
+        """
+    )
+
+    assert text.endswith(
+        'proc control:\n    skip\n    up\n    down\n    for level in ["low", "high"]:\n        say "at {level}"\n'
+    )
+
+
+def test_parts_come_from_another_module(tmp_path: Path) -> None:
+    (tmp_path / "parts.py").write_text(
+        "from golc.embed import Theory, causes, interval\n"
+        'base = Theory("parts")\n'
+        'floor = base.type("floor", interval(1, 3))\n'
+        'at = base.fluent("at", floor, 1)\n'
+        "@base.action\n"
+        "def up():\n"
+        "    causes(at, at + 1)\n"
+    )
+    (tmp_path / "whole.py").write_text(
+        "import parts\n"
+        "from golc.embed import Theory, poss\n"
+        'theory = Theory("whole")\n'
+        "theory.include(parts.base)\n"
+        "@theory.proc\n"
+        "def control():\n"
+        "    if parts.at == 1:\n"
+        "        parts.up()\n"
+    )
+
+    written = read_theory(tmp_path / "whole.py")
+
+    assert written.findings.diagnostics == []
+    assert unparse(written.file) == (
+        "domain whole\n\ntype floor = 1..3\n\nfluent at: floor = 1\n\naction up:\n    causes at := at + 1\n\n"
+        "proc control:\n    if at = 1:\n        up\n"
+    )
+    assert [Path(source.name).name for source in written.sources] == ["whole.py", "parts.py"]
+
+
+def test_a_docstring_and_an_ellipsis_say_nothing(text_of: Text) -> None:
+    text = text_of(
+        '''
+        from golc.embed import Theory
+
+        theory = Theory("d")
+
+        @theory.action
+        def up():
+            """Goes up."""
+
+        @theory.fluent
+        def lit(f: int):
+            """Whether there is light."""
+            ...
+        '''
+    )
+
+    assert text == "domain d\n\naction up\n\nfluent lit(f: int)\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "message", "line"),
+    [
+        ("theory = 1 +\n", "GL140", "Python cannot read this: invalid syntax", 1),
+        ("x = 1\n\n1 / 0\n", "GL141", "ZeroDivisionError: division by zero", 3),
+        ("import nothing_such\n", "GL141", "No module named 'nothing_such'", 1),
+        ("x = 1\n", "GL146", "the file makes no theory", 1),
+        ("raise SystemExit(3)\n", "GL141", "SystemExit", 1),
+        ("\n", "GL146", "the file makes no theory", 1),
+        ("def f():\n    return f()\n\n\nf()\n", "GL141", "RecursionError", 2),
+        (
+            "from golc.embed import Theory\na, b = Theory('a'), Theory('b')\n",
+            "GL146",
+            "the file makes several theories: `a`, `b`",
+            1,
+        ),
+    ],
+)
+def test_a_file_that_python_cannot_run_is_one_finding(
+    wrong_with: Wrong, text: str, code: str, message: str, line: int
+) -> None:
+    (found,) = wrong_with(text)
+
+    assert (found.code.code, found.span.line) == (code, line)
+    assert message in found.message
+
+
+def test_nesting_is_as_deep_as_in_a_text(wrong_with: Wrong) -> None:
+    (found,) = wrong_with(
+        """
+        from golc.embed import Theory
+
+        theory = Theory("d")
+        total = theory.fluent("level", int, 0)
+        for k in range(501):
+            total = total + 1
+        theory.goal("g", total == 1)
+        """
+    )
+
+    assert (found.code.code, found.span.line) == ("GL008", 8)
+
+
+def test_a_failure_in_a_called_function_shows_both_places(wrong_with: Wrong) -> None:
+    (found,) = wrong_with(
+        """
+        from golc.embed import Theory
+
+        def broken(x):
+            return {}[x]
+
+        theory = Theory("d")
+        theory.fluent("f", int, broken(3))
+        """
+    )
+
+    assert (found.code.code, found.span.line) == ("GL141", 5)
+    assert [(label.span.line, label.text) for label in found.labels] == [(8, "called here")]

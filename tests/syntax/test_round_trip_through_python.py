@@ -1,0 +1,51 @@
+"""What is printed as Python is read as the tree that was printed, whatever the tree; and so is its text in golc."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import strategies as st
+
+from golc.diagnostics import UserError
+from golc.embed.modules import read_theory
+from golc.embed.printing import python_text
+from golc.syntax import tree as ast
+from golc.syntax.unparse import unparse
+from golc.syntax.walk import descendants
+
+FUNCTIONS = ("abs", "len", "first", "rest", "poss", "before")
+
+NUMBERS = count()
+"""Each file has a name of its own."""
+
+
+@given(st.data())
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+def test_a_file_is_read_as_itself(
+    trees: Any, parsed: Callable[[str], ast.File], tmp_path: Path, data: st.DataObject
+) -> None:
+    file = data.draw(trees.files)
+    path = tmp_path / f"theory{next(NUMBERS)}.py"
+    path.write_text(_printed(file), encoding="utf-8")
+    with warnings.catch_warnings(action="ignore"):  # Python thinks little of `1[0]`
+        written = read_theory(path)
+
+    assert [finding.message for finding in written.findings.diagnostics] == []
+    assert written.file == file
+    assert python_text(parsed(unparse(written.file))) == python_text(file)
+
+
+def _printed(file: ast.File) -> str:
+    """The Python of a tree that can be written so: functions with one argument, parameters with different names."""
+    applied = (node for node in descendants(file) if isinstance(node, ast.Apply) and node.name.text in FUNCTIONS)
+    assume(all(len(node.args) < 2 for node in applied))
+    try:
+        return python_text(file)
+    except UserError as error:
+        assume("duplicate argument" not in str(error))
+        raise
