@@ -27,7 +27,6 @@ if TYPE_CHECKING:
     from golc.runtime.running import Occurrence, Run, run
     from golc.runtime.session import Voice
     from golc.theory.ground import Call
-    from golc.theory.statements import Strategy
     from golc.theory.types import Unknown
 
 __all__ = [
@@ -48,7 +47,6 @@ __all__ = [
     "Report",
     "Run",
     "State",
-    "Strategy",
     "Theory",
     "Unknown",
     "UserError",
@@ -72,7 +70,6 @@ _ROOMS = {
     "golc.runtime.running": ("Occurrence", "Run", "run"),
     "golc.runtime.session": ("Voice",),
     "golc.theory.ground": ("Call",),
-    "golc.theory.statements": ("Strategy",),
     "golc.theory.types": ("Unknown",),
 }
 _HOMES = {name: room for room, names in _ROOMS.items() for name in names}

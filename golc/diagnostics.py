@@ -86,7 +86,7 @@ class Code(Enum):
     """Every finding that golc can make: its stable code and its title."""
 
     # 001..009: text and syntax
-    UNREADABLE = ("GL001", "the file cannot be read as text")
+    UNREADABLE = ("GL001", "a file cannot be read as text or written")
     SYNTAX = ("GL002", "the text does not follow the grammar")
     INDENTATION = ("GL003", "the indentation makes no block")
     MISSING = ("GL004", "a colon, a bracket or a block is missing")
@@ -168,6 +168,7 @@ class Code(Enum):
     EXTERN = ("GL119", "a Python function in a term fails")
     INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
     SCENARIO = ("GL121", "a scenario does not go as it expects")
+    EVENT_OF_BRICK = ("GL122", "a script reports what the brick reports by itself")
 
     # 140..149: theories in Python
     PYTHON_SYNTAX = ("GL140", "the Python of a theory cannot be read")

@@ -12,7 +12,7 @@ from golc.api.theory import Theory
 from golc.diagnostics import GolcError, counted
 from golc.runtime.loop.happenings import Done, End, Ended, Happening, Observer, Remedy, Said, TakenIn
 from golc.runtime.loop.policy import OnImpossible, OnSurprise
-from golc.runtime.session import Settings, Voice, run_online
+from golc.runtime.session import SIMULATED, Settings, Voice, run_online
 from golc.theory.ground import Call, read_procedure
 from golc.theory.order import spelt
 from golc.theory.types import Value, show
@@ -88,6 +88,9 @@ class Run:
         return f"<Run of {self.summary()}>"
 
 
+SLOWEST, FASTEST = 0.01, 1000.0
+"""How many simulated seconds may pass in a real one."""
+
 Listener: TypeAlias = Callable[[Occurrence], object]
 """A function that is told what has happened."""
 
@@ -134,9 +137,9 @@ def run(
     for so many seconds. ``picture``: a file for a drawing of the world in the end. The others are the options of
     ``golc run``. Durations are in simulated seconds.
 
-    Raises ``UserError`` before anything happens if the theory, its devices or the events are wrong, ``FileExistsError``
-    for a journal that is there already, ``ProgramError`` if the program fails and ``DeviceError`` if the world does;
-    these two are in the result instead if ``check`` is false.
+    Raises ``UserError`` before anything happens if the theory, its devices or the events are wrong, ``ValueError`` for
+    settings that make no sense, ``FileExistsError`` for a journal that is there already; ``ProgramError`` if the
+    program fails and ``DeviceError`` if the world does, which are in the result instead if ``check`` is false.
 
     >>> import golc
     >>> sorter = golc.load("examples/sorter/sorter.gl")
@@ -144,6 +147,10 @@ def run(
     >>> [str(action) for action in done.actions][:2]
     ['feed', 'look']
     """
+    if not SLOWEST <= speed <= FASTEST:
+        raise ValueError(f"the speed is {speed:g}, and has to be from {SLOWEST:g} to {FASTEST:g}")
+    if port not in (None, SIMULATED) and (world is not None or picture is not None):
+        raise ValueError("a world and a picture are for a simulated brick, not for one at a port")
     call = read_procedure(theory.elaborated, program)
     settings = Settings(
         port=port,

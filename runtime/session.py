@@ -12,7 +12,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from golc.diagnostics import DeviceError, Diagnostic, Findings, Source, Span, UserError
+from golc.diagnostics import Code, DeviceError, Diagnostic, Findings, Source, Span, UserError
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
@@ -41,10 +41,12 @@ from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
 if TYPE_CHECKING:
+    from golc.runtime.rcxsim.inprocess import InProcess
     from golc.runtime.standin import Place, RobotInWorld
 
 SIMULATED = "sim"
 """The port that stands for a simulated brick."""
+DOUBLE_HELP = "what happens to the robot is told by the brick: leave the line out"
 
 
 @dataclass(frozen=True)
@@ -122,6 +124,7 @@ class _Session:
         self.inbox = Inbox()
         self.maps = brick_maps(theory)
         self.robot: RobotInWorld | None = None
+        self.line: InProcess | None = None
         self.executable = executable(theory, program.action, program.args)
         self.dynamics = self.executable.dynamics
         self.stdin = _descriptor() if voice.stdin else None
@@ -130,11 +133,11 @@ class _Session:
         self.desk = Desk(self.ask, self.interactive, answers, self.plausible)
 
     def run(self, watching: Iterable[Observer]) -> Outcome:
-        settings = self.settings
         schedule = self.schedule or Schedule()
         observers = [*self.observers(), *watching]
         devices = build_devices(self.theory, Surroundings(self.desk, self.speak, self.link()))
-        clock = Clock(time.monotonic, time.monotonic(), settings.speed)
+        self.warn_of_doubles(schedule)
+        clock = self.clock()
         timetable = Timetable(schedule.only(self.is_ours), self.inbox, clock)
         sources = [*self.sources(devices, clock), timetable]
         policy = self.policy(clock)
@@ -186,8 +189,8 @@ class _Session:
             return self.link_to_robot(self.place.world)
         from golc.runtime.standin import bricks_of_theory
 
-        transport = bricks_of_theory(self.theory, self.schedule, settings.speed, settings.seed)
-        return Link(transport.name, settings.speed, transport)
+        self.line = line = bricks_of_theory(self.theory, self.schedule, settings.speed, settings.seed)
+        return Link(line.name, settings.speed, line)
 
     def link_to_robot(self, world: Path) -> Link:
         """The way to a brick that is simulated in a world."""
@@ -199,7 +202,15 @@ class _Session:
         self.robot = robot = RobotInWorld(self.theory, actions, world, settings.speed, settings.seed, trace)
         if settings.picture is not None:
             self.stack.enter_context(robot.drawn(settings.picture))
+        self.line = robot.transport
         return Link(str(world), settings.speed, robot.transport)
+
+    def clock(self) -> Clock:
+        """The time of the run, which is that of a brick that is simulated here: a slow computer makes both slow."""
+        line, speed = self.line, self.settings.speed
+        if line is None:
+            return Clock(time.monotonic, time.monotonic(), speed)
+        return Clock(lambda: line.now() / speed, line.now() / speed, speed)
 
     @cached_property
     def place(self) -> Place:
@@ -221,6 +232,18 @@ class _Session:
             return True
         return not (self.simulated and any(actions.handles(event.action, event.args) for actions in self.maps.values()))
 
+    def warn_of_doubles(self, schedule: Schedule) -> None:
+        """Say of the lines of the events file that are played here that the brick reports the same."""
+        findings, told = Findings(), set[str]()
+        for entry in schedule.only(self.is_ours).entries:
+            name = entry.event.action
+            bricks = [brick for brick, actions in self.maps.items() if actions.handles(name, entry.event.args)]
+            if bricks and name not in told:
+                told.add(name)
+                message = f"`{name}` is reported by the script, and by the brick `{bricks[0]}` as well"
+                findings.warning(Code.EVENT_OF_BRICK, message, entry.span, help=DOUBLE_HELP)
+        self.voice.complain(tuple(findings.diagnostics))
+
     def sources(self, devices: Sequence[Device], clock: Clock) -> list[EventSource]:
         """Everything that may report exogenous actions, but the schedule."""
         found: list[EventSource] = []
@@ -238,7 +261,6 @@ class _Session:
 
     def policy(self, clock: Clock) -> Policy:
         settings = self.settings
-        idle = settings.stop_when_idle
         return Policy(
             on_impossible=settings.on_impossible,
             on_surprise=settings.on_surprise,
@@ -246,7 +268,7 @@ class _Session:
             if settings.on_failure is None
             else always(settings.on_failure),
             retry_after=clock.real(1.0),
-            stop_when_idle=None if idle is None else clock.real(idle),
+            stop_when_idle=settings.stop_when_idle,
             check_invariants=settings.check_invariants,
             confirm=AskBeforeActions(self.desk) if settings.step else None,
             interrupt=self.desk.interrupt,

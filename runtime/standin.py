@@ -7,8 +7,8 @@ theory alone needs nothing.
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Mapping
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -22,7 +22,7 @@ from golc.runtime.rcxsim.machine import simulator
 from golc.runtime.rcxsim.machine.options import Firmware, Options
 from golc.runtime.rcxsim.theory import simulator as simulator_of_theory
 from golc.runtime.rcxsim.trace import Trace
-from golc.runtime.rcxsim.world.picture import draw
+from golc.runtime.rcxsim.world.picture import draw, drawing
 from golc.runtime.rcxsim.world.world import World
 from golc.runtime.rcxsim.world.worldfile import read_world
 from golc.runtime.sources.schedule import Schedule
@@ -88,19 +88,13 @@ class RobotInWorld:
         with self.transport.lock:
             return self._world.whereabouts
 
-    @contextmanager
-    def drawn(self, path: Path) -> Iterator[None]:
+    def drawn(self, path: Path) -> AbstractContextManager[None]:
         """Draw the world from above into a file in the end, with the way of the robot until then, as SVG.
 
-        Raises DeviceError, in the beginning, if the file cannot be written.
+        Raises UserError, in the beginning, if the file cannot be written.
         """
-        try:
-            file = path.open("w", encoding="utf-8")
-        except OSError as error:
-            raise DeviceError(f"cannot write the picture {path}: {error.strerror}") from None
-        with file:
-            try:
-                yield
-            finally:
-                with self.transport.lock:
-                    file.write(draw(self._world.scene, self._world.record, self._world.pose))
+        return drawing(path, self._picture)
+
+    def _picture(self) -> str:
+        with self.transport.lock:
+            return draw(self._world.scene, self._world.record, self._world.pose)

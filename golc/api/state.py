@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from golc.situation import worlds
 from golc.situation.dynamics import Dynamics
 from golc.situation.summary import summary
 from golc.theory.suggest import did_you_mean
-from golc.theory.types import Value, show_call
+from golc.theory.types import Value
 
 Key: TypeAlias = str | tuple[Value, ...]
 """A ground fluent: its name, its text as in ``"holding(4)"``, or its name and its arguments."""
 
 
-class State(Mapping[Key, Value]):
+class State(Mapping[Key, Any]):
     """What the agent knows: the value of every ground fluent, or an ``Unknown`` with the possible ones.
 
     ``state["location"]``, ``state["holding", 4]`` and ``state["holding(4)"]`` are values; ``KeyError`` for what is no
@@ -38,20 +38,25 @@ class State(Mapping[Key, Value]):
         self.dynamics = dynamics
 
     @cached_property
-    def _known(self) -> dict[tuple[Value, ...], Value]:
-        """Plain values by name and arguments."""
-        names = self.dynamics.layout.ground_fluents
-        return {(name, *args): value for (name, args), value in zip(names, worlds.shown(self.raw), strict=True)}
+    def _values(self) -> tuple[Value, ...]:
+        """By slot."""
+        return worlds.shown(self.raw)
 
-    @cached_property
-    def _texts(self) -> dict[str, tuple[Value, ...]]:
-        return {show_call(name, args): (name, *args) for name, args in self.dynamics.layout.ground_fluents}
+    def __getitem__(self, key: Key) -> Any:
+        slot = self._slot(key)
+        if slot is None:
+            raise KeyError(self._missing(key))
+        return self._values[slot]
 
-    def __getitem__(self, key: Key) -> Value:
-        place = self._texts.get(key.replace(" ", ""), (key,)) if isinstance(key, str) else key
-        if place in self._known:
-            return self._known[place]
-        raise KeyError(self._missing(key))
+    def _slot(self, key: Key) -> int | None:
+        layout = self.dynamics.layout
+        match key:
+            case str():
+                return layout.slots.get(key.replace(" ", ""))
+            case (str(name), *args) if name in layout.places:
+                return layout.places[name].find(tuple(args))
+            case _:
+                return None
 
     def _missing(self, key: Key) -> str:
         name = key.partition("(")[0] if isinstance(key, str) else str(key[0] if key else "")
@@ -65,10 +70,10 @@ class State(Mapping[Key, Value]):
         return f"the fluent is `{name}({parameters})`"
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._texts)
+        return iter(self.dynamics.layout.slots)
 
     def __len__(self) -> int:
-        return len(self._known)
+        return self.dynamics.layout.size
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, State):

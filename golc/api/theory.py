@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from golc.api import acting
 from golc.api.acting import Doing
@@ -21,7 +21,7 @@ from golc.theory.queries import Queries
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.statements import Strategy
 from golc.theory.theory import Action, BasicActionTheory, Constant, Definition, Device, Fluent, Procedure, Static
-from golc.theory.types import Type, Value
+from golc.theory.types import Type
 
 if TYPE_CHECKING:
     from golc.api.report import Report
@@ -249,7 +249,7 @@ class Theory:
         with deep_recursion(EVALUATION):
             return bool(self._formula(formula)(self._raw(state), ()))
 
-    def value(self, state: State, term: str) -> Value:
+    def value(self, state: State, term: str) -> Any:
         """The value of a term or a formula; an ``Unknown`` with the possible ones if it is not known.
 
         >>> import golc
@@ -258,8 +258,7 @@ class Theory:
         3
         """
         with deep_recursion(EVALUATION):
-            value: Value = self._term(term)(self._raw(state), ())
-            return value
+            return self._term(term)(self._raw(state), ())
 
     def _raw(self, state: State) -> Any:
         if state.dynamics is not self._dynamics:
@@ -287,7 +286,7 @@ class Theory:
         *,
         goal: str | None = None,
         state: State | None = None,
-        strategy: Strategy = Strategy.FIRST,
+        strategy: Literal["first", "shortest", "cheapest"] = "first",
         conformant: bool = False,
         steps: int | None = None,
         nodes: int | None = None,
@@ -327,7 +326,7 @@ class Theory:
         *,
         goal: str | None = None,
         state: State | None = None,
-        strategy: Strategy = Strategy.FIRST,
+        strategy: Literal["first", "shortest", "cheapest"] = "first",
         every: bool = False,
         conformant: bool = False,
         steps: int | None = None,
@@ -338,10 +337,10 @@ class Theory:
 
         ``program``: a procedure with its arguments, as ``"serve(3)"``; by default ``control``. ``goal``: a formula, to
         plan without a program for what makes it true with the fewest steps. ``state``: where to begin, by default the
-        initial state. ``strategy``: which plan of the program. ``every``: not one plan, but every distinct sequence of
-        actions, in program order; ``ValueError`` if plans depend on what is sensed. ``conformant``: only plans that
-        make no use of what is sensed. The limits are ``steps`` in a plan, ``nodes`` (pairs of program and state
-        expanded) and wall-clock ``seconds``; none is no limit.
+        initial state. ``strategy``: which plan of the program, by default the first in program order. ``every``: not
+        one plan, but every distinct sequence of actions, in program order; ``ValueError`` if plans depend on what is
+        sensed. ``conformant``: only plans that make no use of what is sensed. The limits are ``steps`` in a plan,
+        ``nodes`` (pairs of program and state expanded) and wall-clock ``seconds``; none is no limit.
         """
         from golc.planning.goals import GoalPlanning
         from golc.planning.limits import Limits
@@ -350,12 +349,12 @@ class Theory:
         limits = Limits(steps, nodes, seconds)
         start = None if state is None else self._raw(state)
         if goal is not None:
-            if program is not None or every or strategy is Strategy.CHEAPEST:
+            if program is not None or every or strategy == "cheapest":
                 raise ValueError("a goal asks for one shortest plan without a program")
             return GoalPlanning(self.elaborated, self._queries.formula(goal, "<goal>"), limits, conformant, start)
         call = read_procedure(self.elaborated, program or "control")
         ready = executable(self.elaborated, call.action, call.args, conformant)
-        return Planning(ready, limits, every, strategy, start)
+        return Planning(ready, limits, every, Strategy(strategy), start)
 
     # ---- the brick
 

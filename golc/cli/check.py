@@ -39,6 +39,7 @@ def _starts(context: click.Context, parameter: click.Parameter, values: tuple[st
 )
 @click.option("--fix", "fixing", is_flag=True, help="Put right what is safe to put right, and write the files.")
 @click.option("--diff", is_flag=True, help="Change nothing: show what --fix would change.")
+@click.option("--watch", "watching", is_flag=True, help="Check again whenever one of the files changes, until Ctrl-C.")
 @constants_option
 @console_options
 def command(
@@ -52,6 +53,7 @@ def command(
     ignore: tuple[str, ...],
     fixing: bool,
     diff: bool,
+    watching: bool,
     constants: Mapping[str, str],
     console: Console,
 ) -> int:
@@ -64,12 +66,21 @@ def command(
     golc check --strict -D floors=12 elevator.gl
     golc check --fix my.gl
     """
-    from golc.cli.checking import Checking
+    from golc.cli.checking import LINES, Checking
     from golc.reporting.selection import Selection
 
     if diff and form != "text":
         raise click.UsageError("--diff shows a patch, and has no other --format.")
+    if watching and form not in LINES:
+        raise click.UsageError(f"--watch goes on writing, and --format {form} is one whole.")
     selection = Selection(select, ignore)
-    return Checking(
+    checking = Checking(
         files, form, strict, not no_proofs, reachable, trust, selection, fixing, diff, constants, console
-    ).run()
+    )
+    if not watching:
+        return checking.run()
+    from golc.cli.watching import watch
+    from golc.syntax.parser import parser
+
+    parser()  # which every run needs
+    return watch(checking.run, files, console)

@@ -36,6 +36,9 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
     to_golc = Path(file).suffix == ".py"
     if target != "-" and (Path(target).suffix == ".py") == to_golc:
         raise click.UsageError(f"of `{file}` and `{target}` one has to end in `.py`, the other not")
+    if target != "-" and not force and Path(os.path.realpath(target)).is_file():
+        console.err(f"error: `{target}` exists already\n  = help: `--force` replaces it")
+        return 1
     findings = Findings()
     try:
         source, text = (_as_golc if to_golc else _as_python)(file, findings)
@@ -43,7 +46,7 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
         findings.diagnostics += error.diagnostics
     for finding in findings.diagnostics:
         console.err(render(finding, console.colored(sys.stderr)) + "\n")
-    if findings.has_errors or not _write(console, text, target, force):
+    if findings.has_errors or not _write(console, text, target):
         return 1
     if (_python_comments if to_golc else _golc_comments)(source.text):
         console.note(f"the comments of `{file}` are not carried over")
@@ -89,15 +92,12 @@ def _refuse_nested_messages(file: tree.File) -> None:
                     )
 
 
-def _write(console: Console, text: str, target: str, force: bool) -> bool:
+def _write(console: Console, text: str, target: str) -> bool:
     """Write the text, all of it or nothing; whether that has gone well."""
     if target == "-":
         sys.stdout.write(text)
         return True
     path = Path(os.path.realpath(target))
-    if path.is_file() and not force:
-        console.err(f"error: `{target}` exists already\n  = help: `--force` replaces it")
-        return False
     try:
         with completed(path) as stream:
             stream.write(text)

@@ -81,17 +81,15 @@ def command(
     """
     from golc.api.loading import load
     from golc.cli.plan_writing import FORMATS
-    from golc.theory.statements import Strategy
 
     _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
     if goal is not None and (procedure is not None or cheapest or most is not None):
         raise click.UsageError("--goal asks for one shortest plan without a program: no PROC, --all or --cheapest")
-    strategy = Strategy.SHORTEST if shortest else Strategy.CHEAPEST if cheapest else Strategy.FIRST
     try:
         planning = load(file, constants).planning(
             procedure,
             goal=goal,
-            strategy=strategy,
+            strategy="shortest" if shortest else "cheapest" if cheapest else "first",
             every=most is not None,
             conformant=conformant,
             steps=steps,

@@ -202,17 +202,22 @@ def command(
             world = None if scene is None else _world(scene, seed, told)
             made = {"seed": seed, **settings}
             machine = sim_machine.Simulation(file, option, made, world or Bench(), told, constants)
-            if world is not None and not listing:
-                stack.callback(_show, world, picture and stack.enter_context(_opened(picture)), console)
+            if world is not None and picture is not None:
+                stack.enter_context(_drawing(world, picture))
+            if world is not None and (seconds is not None or steps is not None):
+                stack.callback(_tell_place, world, console)
             if shown := machine.shown(listing, seconds, steps, options):
                 console.out("\n".join(shown))
                 return
             line, rest = machine.line(options), sim_machine.REST
         else:
+            world = None
             line, rest = _theory_line(file, constants, events, options, seed, told), 0.0
         stops = [stack.enter_context(stopped_by_signals())]
         port = stack.enter_context(contextlib.closing(_port(link, tcp)))
         console.out(port.description)
+        if world is not None:
+            stack.callback(_tell_place, world, console)
         if file is None:
             console.note("the brick is empty: nqc can send it a program")
         serve(line, port, stops, speed, rest)
@@ -238,12 +243,14 @@ def _world(path: Path, seed: int, trace: Trace) -> World:
     return World(read_world(path), seed, trace)
 
 
-def _show(world: World, picture: Any, console: Console) -> None:
-    """Draw the world as it is in the end, and say where the robot is."""
-    from golc.runtime.rcxsim.world.picture import draw
+def _drawing(world: World, picture: Path) -> contextlib.AbstractContextManager[None]:
+    """Draw the world as it is in the end."""
+    from golc.runtime.rcxsim.world.picture import draw, drawing
 
-    if picture is not None:
-        picture.write(draw(world.scene, world.record, world.pose))
+    return drawing(picture, lambda: draw(world.scene, world.record, world.pose))
+
+
+def _tell_place(world: World, console: Console) -> None:
     console.out(f"the robot is {world.whereabouts}")
 
 
@@ -266,10 +273,12 @@ def _port(link: Path | None, tcp: tuple[str, int] | None) -> Port:
 
 
 def _opened(path: Path) -> Any:
+    from golc.syntax.text import unwritable
+
     try:
         return path.open("w", encoding="utf-8")
     except OSError as error:
-        raise click.FileError(str(path), error.strerror) from None
+        raise unwritable(path, error) from None
 
 
 def _teller(console: Console) -> Any:

@@ -14,6 +14,7 @@ from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
 from golc.embed.errors import refused
 from golc.embed.places import code_span, line_span, offset, source_of
 from golc.embed.theory import Theory, Written
+from golc.theory.python_file import logger
 
 HERE = str(Path(__file__).parent)
 
@@ -27,6 +28,7 @@ def read_theory(path: str | Path) -> Written:
     name = str(path)
     linecache.checkcache(name)
     source = _checked(name)
+    logger.info("executes %s", name)
     module = ModuleType(f"golc_theory_{Path(path).stem}")
     module.__file__ = name
     try:

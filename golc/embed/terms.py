@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterable, Iterator
-from dataclasses import replace
 from decimal import Decimal
 from typing import Any, NoReturn
 
@@ -286,12 +285,6 @@ def _instead(value: object) -> str:
     if callable(value):
         return "call it, or declare it with a decorator of the theory"
     return "numbers, strings, truth values, `None`, lists, sets and what the theory declares can stand here"
-
-
-def restated(value: object, span: Span) -> Any:
-    """A term as if it were written at a place: names stand there, what was built elsewhere keeps its place."""
-    node = expr(value, span)
-    return replace(node, span=span) if node.span is NOWHERE else node
 
 
 def _no_truth() -> NoReturn:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from enum import Enum
 from pathlib import Path
 
-from golc.diagnostics import Code, Diagnostic, Source, Span, UserError
+from golc.syntax.text import unwritable
 
 SEAL = "golc made this file; edit it, and golc sees by this number that it has to leave it alone: "
 _OPEN = "0" * 16
@@ -68,7 +68,7 @@ def is_untouched(path: Path) -> bool:
     except UnicodeDecodeError:
         return False
     except OSError as error:
-        raise _cannot(path, error) from error
+        raise unwritable(path, error) from error
 
 
 def write(path: Path, text: str) -> Written:
@@ -88,7 +88,7 @@ def remove(path: Path) -> bool:
     try:
         path.unlink()
     except OSError as error:
-        raise _cannot(path, error) from error
+        raise unwritable(path, error) from error
     return True
 
 
@@ -100,10 +100,4 @@ def _put(path: Path, text: str) -> None:
         partial.write_text(text, encoding="utf-8")
         partial.replace(path)
     except OSError as error:
-        raise _cannot(path, error) from error
-
-
-def _cannot(path: Path, error: OSError) -> UserError:
-    source = Source(str(path), "")
-    reason = error.strerror or str(error)
-    return UserError(Diagnostic(Code.UNREADABLE, f"`{path}` cannot be written: {reason}", Span(source, 0, 0)))
+        raise unwritable(path, error) from error

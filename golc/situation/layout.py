@@ -14,7 +14,7 @@ from math import prod
 from typing import Protocol, TypeAlias
 
 from golc.theory.theory import BasicActionTheory, Fluent
-from golc.theory.types import Type, Value
+from golc.theory.types import Type, Value, show_call
 
 World: TypeAlias = tuple[Value, ...]
 """One way the world may be: a value for each slot."""
@@ -49,6 +49,11 @@ class Place:
             stride * position[arg] for stride, position, arg in zip(self.strides, self.positions, args, strict=True)
         )
 
+    def find(self, args: tuple[Value, ...]) -> int | None:
+        """The slot of a ground fluent; none for arguments that it cannot have."""
+        fits = len(args) == len(self.types) and all(arg in type_ for arg, type_ in zip(args, self.types, strict=True))
+        return self.slot(args) if fits else None
+
     def arguments(self) -> Iterator[tuple[Value, ...]]:
         """The arguments of the ground fluents in the order of their slots."""
         return product(*(type_.values for type_ in self.types))
@@ -71,3 +76,8 @@ class Layout:
     def ground_fluents(self) -> tuple[tuple[str, tuple[Value, ...]], ...]:
         """Name and arguments of each slot."""
         return tuple((name, args) for name, place in self.places.items() for args in place.arguments())
+
+    @cached_property
+    def slots(self) -> dict[str, int]:
+        """The slot of each ground fluent by its text."""
+        return {show_call(*name): slot for slot, name in enumerate(self.ground_fluents)}

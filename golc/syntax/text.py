@@ -1,4 +1,4 @@
-"""Reading a file as the text of a source."""
+"""Reading a file as the text of a source, and the error that a file cannot be written."""
 
 from __future__ import annotations
 
@@ -87,3 +87,9 @@ def _undecodable(name: str, data: bytes, error: UnicodeDecodeError) -> UserError
 def _unreadable(name: str, reason: str, help: str | None = None, span: Span | None = None) -> UserError:
     place = span or Span(Source(name, ""), 0, 0)
     return UserError(Diagnostic(Code.UNREADABLE, f"cannot read `{name}`: {reason}", place, help=help))
+
+
+def unwritable(path: Path, error: OSError) -> UserError:
+    """The error that a file that was named cannot be opened for writing."""
+    place = Span(Source(str(path), ""), 0, 0)
+    return UserError(Diagnostic(Code.UNREADABLE, f"cannot write `{path}`: {error.strerror or error}", place))

@@ -10,8 +10,8 @@ from dataclasses import asdict
 from golc.diagnostics import DeviceError
 from golc.nqc.numbering import ActionMap
 from golc.runtime.devices.base import Args, Device, GivenUpError
-from golc.runtime.devices.rcx.brick import CHECK_HELP, Brick
-from golc.runtime.devices.rcx.errors import InterruptedLinkError, SilentBrickError
+from golc.runtime.devices.rcx.brick import Brick
+from golc.runtime.devices.rcx.errors import InterruptedLinkError, NonsenseError, PanicError, SilentBrickError
 from golc.runtime.devices.rcx.numbers import ClassicParameters
 from golc.runtime.devices.rcx.tower import Tower, open_tower
 from golc.runtime.devices.rcx.transport import Transport
@@ -24,6 +24,8 @@ MOST_EVENTS = 16
 """Exogenous actions that are fetched in a row before the link is free for something else."""
 BUSY_SECONDS = 3.0
 """Real seconds after which an abort no longer waits for another exchange to end."""
+
+HASTE_HELP = "with --speed {:g}, is the brick a simulated one of the same speed, and the computer not too busy for it?"
 
 
 class Link:
@@ -54,6 +56,10 @@ class Link:
         owned = self._lock.acquire(timeout=patience)
         try:
             yield
+        except (SilentBrickError, PanicError, NonsenseError) as error:
+            if self._speed > 1 and self._transport is None:
+                raise type(error)(str(error), f"{error.help}; {HASTE_HELP.format(self._speed)}") from error
+            raise
         finally:
             if owned:
                 self._lock.release()
@@ -106,7 +112,7 @@ class RcxDevice(Device):
                 brick.abort()
         except SilentBrickError as error:
             self._link.close()
-            raise DeviceError(f"no brick answers on {self._link.port}", help=CHECK_HELP) from error
+            raise DeviceError(f"no brick answers on {self._link.port}", help=error.help) from error
         self._brick = brick
 
     def handles(self, action: str, args: Args) -> bool:

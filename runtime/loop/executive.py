@@ -284,7 +284,7 @@ class Executive(Intake):
         False if none can come or none came in time, or if the operator ended the run, which is then the verdict.
         """
         idle = self._policy.stop_when_idle
-        deadline = None if idle is None else time.monotonic() + idle
+        deadline = None if idle is None else self.clock.now() + idle
         items, alarm = self._inbox.items, self.machine.alarm
         while self._verdict is None:
             if items:
@@ -295,10 +295,12 @@ class Executive(Intake):
                     return True
             elif not self._open() and not items:
                 return False
-            elif not self._inbox.wait(None if deadline is None else max(0.0, deadline - time.monotonic())):
+            elif deadline is None:
+                self._inbox.wait()
+            elif not self._inbox.wait(self.clock.until(deadline)) and self.clock.now() >= deadline:
                 if not any(device.polling for device in self._devices):
                     return bool(items) and self.take_in()
-                deadline = time.monotonic() + A_MOMENT
+                self._inbox.wait(A_MOMENT)
         return False
 
     def _open(self) -> tuple[str, ...]:

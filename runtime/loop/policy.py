@@ -47,9 +47,9 @@ class Policy:
     """Decisions that are made before the run, or by asking somebody during it.
 
     ``on_failure`` says what to do about an action that a device could not do; ``retry_after`` is how many real seconds
-    pass before it is tried again. ``stop_when_idle`` is the real time in seconds after which a run that only waits
-    ends. ``check_invariants`` is whether a state in which an invariant is false ends the run. ``confirm`` is asked
-    before each action and returns when it may begin. ``interrupt`` makes these two give up.
+    pass before it is tried again. ``stop_when_idle`` is the time of the clock in seconds after which a run that only
+    waits ends. ``check_invariants`` is whether a state in which an invariant is false ends the run. ``confirm`` is
+    asked before each action and returns when it may begin. ``interrupt`` makes these two give up.
     """
 
     on_impossible: OnImpossible = OnImpossible.APPLY

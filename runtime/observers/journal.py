@@ -37,6 +37,7 @@ from golc.runtime.loop.happenings import (
     Waiting,
 )
 from golc.situation.dynamics import Dynamics
+from golc.syntax.text import unwritable
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value, writable
 
@@ -53,7 +54,7 @@ def fingerprint(theory: BasicActionTheory) -> str:
 class Journal:
     """An observer that writes records to a file; every line reaches the system whole or not at all.
 
-    Opening raises ``DeviceError`` where the file cannot be written, ``FileExistsError`` where there is one already.
+    Opening raises ``UserError`` where the file cannot be written, ``FileExistsError`` where there is one already.
     """
 
     def __init__(self, path: Path, dynamics: Dynamics, procedure: str, args: tuple[Value, ...]) -> None:
@@ -179,7 +180,7 @@ def _create(path: Path) -> int:
     try:
         file = os.open(path, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o644)
     except OSError as error:
-        raise DeviceError(f"cannot write the journal {path}: {error.strerror}") from error
+        raise unwritable(path, error) from error
     status = os.fstat(file)
     if stat.S_ISREG(status.st_mode) and status.st_size > 0:
         os.close(file)

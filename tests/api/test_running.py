@@ -149,6 +149,13 @@ def test_what_cannot_be_run_is_a_user_error_whatever_is_checked(
     assert caught.value.diagnostics[0].message == message
 
 
+def test_settings_that_make_no_sense_are_refused(counter: golc.Theory) -> None:
+    with pytest.raises(ValueError, match="the speed is 0, and has to be from"):
+        golc.run(counter, speed=0)
+    with pytest.raises(ValueError, match="not for one at a port"):
+        golc.run(counter, port="/dev/null", world="room.toml")
+
+
 ASKED = """domain asked
 fluent name: string = "nobody"
 action ask:

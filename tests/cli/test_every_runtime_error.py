@@ -153,4 +153,5 @@ def test_runs(tmp_path: Path, entry: Entry) -> None:
 
 def test_every_code_of_the_run_time_has_an_entry() -> None:
     listed = {entry.head[6:11] for entry in ENTRIES}
-    assert listed == {code.code for code in Code if code.code >= "GL100"}
+    warning = Code.EVENT_OF_BRICK  # which is never an error
+    assert listed == {code.code for code in Code if "GL100" <= code.code < "GL140"} - {warning.code}

@@ -51,7 +51,7 @@ def found(
 
 
 def needs_nqc(example: Example) -> bool:
-    return "--compile" in example.command or "sim robot.nqc" in example.command
+    return any(words in example.command for words in ("--compile", "sim robot.nqc", "--world"))
 
 
 @pytest.mark.parametrize("code", Code, ids=lambda code: code.code)

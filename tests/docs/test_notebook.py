@@ -64,6 +64,11 @@ def test_plans(outputs: Outputs) -> None:
     assert outputs["look"]["text/plain"] == "(7, 3, 'closed', Unknown(values=('open', 'closed')))"
 
 
+def test_a_theory_of_a_cell(outputs: Outputs) -> None:
+    # Three actions are the fewest; among these plans the first takes `right` first.
+    assert outputs["cart"]["text/plain"] == "<Plan: right, jump(4), jump(6)>"
+
+
 def test_an_error_has_its_place(outputs: Outputs) -> None:
     assert outputs["error"]["text"].startswith("error[GL111]: `drive_in` is not possible in this state\n")
     assert "`gate(at) = open` is false (gate(middle) = closed, at = middle)" in outputs["error"]["text"]

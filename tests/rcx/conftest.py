@@ -74,6 +74,8 @@ class Air:
     echo: bool = False
     damage: Damage = lambda data, from_brick: (0.0, data)
     sleeps: bool = False
+    behind: float = 0.0
+    """So much later than it should everything happens that is not the host's."""
     name: str = "air"
     time: float = 100.0
     sent: list[tuple[float, int]] = field(default_factory=list)
@@ -107,13 +109,13 @@ class Air:
         out = self.time + AIR * len(data) / 9
         self._awake_until = out + 4.0
         if self.echo and (awake or not self.sleeps):
-            self.arrive(out, data)
+            self.arrive(out + self.behind, data)
         for match in FRAME.finditer(data):
             self.sent.append((out, match[1][0]))
             if awake or not self.sleeps:
                 delay, left = self.damage(match[0], False)
                 if left == match[0]:
-                    self._hear(match[1][0], out + delay)
+                    self._hear(match[1][0], out + self.behind + delay)
                 elif left:
                     self.arrive(out, b"\xc3")  # what a tower makes of a disturbance
 

@@ -33,7 +33,7 @@ def test_a_place_of_several_lines_has_no_columns() -> None:
 def test_what_has_no_text_and_what_is_in_no_file() -> None:
     unread = Diagnostic(Code.UNREADABLE, "empty", Span(Source("a.gl", ""), 0, 0), Severity.NOTE)
     given = Diagnostic(Code.OVERRIDE, "no such const", Span(Source("-D x", "3"), 0, 1))
-    assert annotation(unread) == "::notice file=a.gl,title=GL001%3A the file cannot be read as text::empty"
+    assert annotation(unread) == "::notice file=a.gl,title=GL001%3A a file cannot be read as text or written::empty"
     assert annotation(given).startswith("::error title=GL024%3A ")
 
 

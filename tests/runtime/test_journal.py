@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from golc.diagnostics import DeviceError, ProgramError
+from golc.diagnostics import DeviceError, ProgramError, UserError
 from golc.runtime.loop.inbox import Refusal, Report
 from golc.runtime.observers.journal import Journal, fingerprint, read_journal
 from golc.theory.theory import BasicActionTheory
@@ -117,7 +117,7 @@ def test_an_existing_journal_is_not_overwritten(delivery: BasicActionTheory, sta
 
 
 def test_a_folder_that_is_not_there_is_told(delivery: BasicActionTheory, start: Start, tmp_path: Path) -> None:
-    with pytest.raises(DeviceError, match=r"cannot write the journal .*: No such file or directory"):
+    with pytest.raises(UserError, match=r"cannot write .*: No such file or directory"):
         Journal(tmp_path / "no/j", start(delivery).executive.dynamics, "control", ())
 
 

@@ -141,6 +141,25 @@ def test_names_of_any_language(lab: MakeLab) -> None:
     assert texts(svg) == ["é"]
 
 
+@pytest.mark.parametrize(
+    ("facing", "anchor"), [(0, "middle"), (90, "end"), (180, "middle"), (-90, "start"), (30, "end")]
+)
+def test_a_name_stands_at_the_left_of_its_mark_clear_of_it_and_in_the_picture(
+    lab: MakeLab, facing: int, anchor: str
+) -> None:
+    svg = drawn(lab(f"[stations.The_post_office_of_the_village]\nat = [0, 0]\nfacing = {facing}\nlight = 60"))
+    [name] = svg.iter(SVG + "text")
+    assert name.get("text-anchor") == anchor
+    size, x, y = float(svg.get("font-size", "")), float(name.get("x", "")), -float(name.get("y", ""))
+    assert hypot(x, y) == pytest.approx(25 + size, abs=0.1)
+    # An average letter of a bold sans serif is some 0.6 of its size wide.
+    width = 0.6 * size * len("The_post_office_of_the_village")
+    start = x - {"start": 0, "middle": width / 2, "end": width}[anchor]
+    left, top, across, down = map(float, svg.get("viewBox", "").split())
+    assert left < start < start + width < left + across
+    assert top + size / 2 < -y < top + down - size / 2
+
+
 def test_a_long_run_does_not_fill_the_memory(lab: MakeLab) -> None:
     robot = lab(speed="1000")
     robot.drive(8, 8)

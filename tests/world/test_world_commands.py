@@ -113,6 +113,16 @@ def test_people_and_a_script_for_the_host_in_a_world(tmp_path: Path) -> None:
     assert "the robot is at station 1" in out
 
 
+def test_a_script_that_speaks_for_the_brick_is_warned_of(tmp_path: Path) -> None:
+    events = tmp_path / "all.events"
+    events.write_text("at 900 s: request_delivery(4, 3)\nat 900 s: push_go_button\nat 901 s: push_go_button\n")
+    code, _, err = golc("run", DOMAIN, "--world", WORLD, "--events", events, "--speed", 50, typed="!stop\n")
+    assert code == 0
+    assert re.findall(r"^warning\[(GL\d+)\].*\n +--> .*all\.events:(\d)", err, re.MULTILINE) == [("GL122", "2")]
+    code, _, err = golc("run", DOMAIN, "--world", "none", "--events", events, "--speed", 50, typed="!stop\n")
+    assert (code, err) == (0, "")
+
+
 def test_no_world_where_none_is_wanted() -> None:
     code, out, _ = golc("run", DOMAIN, "--world", "none", "--speed", 20, typed="!stop\n")
     assert code == 0
@@ -133,11 +143,38 @@ def test_without_nqc_the_theory_stands_in_and_says_how_to_get_more(monkeypatch: 
         standin.RobotInWorld(theory, bricks["rcx"], WORLD, 1.0, 0, Trace())
 
 
-def test_a_picture_that_cannot_be_written_is_told_before_anything_happens(capfd: pytest.CaptureFixture[str]) -> None:
-    assert invoke(["run", str(DOMAIN), "--speed", "50", "--picture", "/nowhere/way.svg"]) == 4
+@pytest.mark.parametrize("option", ["--picture", "--journal"])
+def test_a_file_that_cannot_be_written_is_told_before_anything_happens(
+    capfd: pytest.CaptureFixture[str], option: str
+) -> None:
+    assert invoke(["run", str(DOMAIN), "--speed", "50", option, "/nowhere/file"]) == 1
     out, err = capfd.readouterr()
-    assert "cannot write the picture /nowhere/way.svg: No such file or directory" in err
+    assert err.startswith("error[GL001]: cannot write `/nowhere/file`: No such file or directory")
     assert "→" not in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "complaint"),
+    [
+        (["--picture", "/nowhere/way.svg", "--for", "1"], 1, "cannot write `/nowhere/way.svg`: No such file"),
+        (["--trace", "/nowhere/trace", "--for", "1"], 1, "cannot write `/nowhere/trace`: No such file"),
+        (["--pty", "/nowhere/brick"], 4, "cannot make the link /nowhere/brick"),
+    ],
+)
+def test_where_nothing_has_begun_the_robot_is_nowhere(
+    room: Path, arguments: list[str], code: int, complaint: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert invoke(["sim", "straight.nqc", "--world", "room.toml", *arguments]) == code
+    out, err = capsys.readouterr()
+    assert complaint in err
+    assert out == ""
+
+
+def test_a_disk_that_is_full_before_the_picture_is_drawn(room: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert invoke(["sim", "straight.nqc", "--world", "room.toml", "--for", "3", "--picture", "/dev/full"]) == 4
+    out, err = capsys.readouterr()
+    assert "the robot is at (0, 20" in out
+    assert "cannot write the picture /dev/full: No space left on device" in err
 
 
 @pytest.mark.parametrize(

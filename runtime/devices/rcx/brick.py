@@ -34,6 +34,8 @@ DEFAULT_TIMEOUT = 15.0
 """Seconds that an action may take, as in Legolog."""
 PROBES = 6
 """Requests, together as long as one wait for an answer, after which a brick that says nothing waits for a digit."""
+ABORT_WAITS = 3
+"""An abort is repeated for as long as so many answers may take."""
 CHECK_HELP = (
     "is the brick switched on and in sight of the tower, does its program run (the green Run button), "
     "and do the numbers of the device belong to that program?"
@@ -133,7 +135,7 @@ class Brick:
         """
         self.statistics.aborts += 1
         self._exchange.forget()
-        deadline = self._tower.now() + self._timing.abort
+        deadline = self._tower.now() + max(self._timing.abort, ABORT_WAITS * self._tower.least_wait)
         unconfirmed: LinkError = SilentBrickError("the brick does not confirm the abort: it may go on", CHECK_HELP)
         while True:
             self._exchange.send(self._numbers.abort)

@@ -88,7 +88,7 @@ class Exchange:
             self._follows_itself = same
         sent = self.send(number)
         self.doubtful = self._remembers and self._follows_itself and (again or sent - before > NEW_AFTER)
-        deadline = sent + wait
+        deadline = sent + max(wait, self._tower.least_wait)
         while (heard := self._tower.receive(deadline)) is not None:
             if heard in accept:
                 self._unsettled = {number}

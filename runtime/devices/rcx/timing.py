@@ -69,3 +69,41 @@ class BrickStatistics:
     """Times that the brick reported panic."""
     aborts: int = 0
     """Times that the brick was told to stop."""
+
+
+LEAST_WAIT = 0.2
+"""Real seconds in which an answer may come, ..."""
+LAGS = 8.0
+"""... or as many times as far behind as the line was seen to be."""
+LAG_KEPT = 0.9
+"""How much of the lag that was seen counts when the next message goes out."""
+ECHO_WAIT = 5.0
+"""Real seconds for the echo of a tower that has echoed before, ..."""
+FIRST_ECHO_WAIT = 0.5
+"""... and for that of another one, which may have none."""
+
+
+class Patience:
+    """How long to wait at least for what comes in no time: in simulated seconds, of which ``speed`` pass in a real one.
+
+    A host that is faster than a real one has a simulated brick at the other end, in a process of its own, and on a busy
+    computer a process waits for its turn longer than a fast brick takes to answer. How busy it is shows in how long the
+    tower takes to echo a message.
+    """
+
+    def __init__(self, speed: float) -> None:
+        self._speed = speed
+        self._lag = 0.0
+
+    @property
+    def answer(self) -> float:
+        """For an answer, counted from the echo of what was sent."""
+        return max(LEAST_WAIT * self._speed, LAGS * self._lag)
+
+    def echo(self, known: bool) -> float:
+        """For the echo of a tower of which it is ``known`` that it has one, or not."""
+        return (ECHO_WAIT if known else FIRST_ECHO_WAIT) * self._speed
+
+    def note(self, lag: float) -> None:
+        """An echo has come so much later than the last bit of the message was out."""
+        self._lag = max(lag, LAG_KEPT * self._lag)

@@ -16,6 +16,7 @@ from typing import Self
 
 from golc.runtime.devices.rcx.interruptible import Interruptible
 from golc.runtime.devices.rcx.packets import BYTE_SECONDS, MESSAGE, MESSAGE_SECONDS, Decoder, encode_message
+from golc.runtime.devices.rcx.timing import Patience
 from golc.runtime.devices.rcx.transport import Clock, SerialPort, Transport
 
 logger = logging.getLogger(__name__)
@@ -34,9 +35,8 @@ WAKE_SECONDS = BYTE_SECONDS + 0.045
 ECHO_SLACK = 4
 """Bytes of noise (and the wake byte) that may stand before an echo."""
 
-
 NO_ECHO = 3
-"""Replies in a row without an echo before them, after which a tower counts as one that does not echo."""
+"""Echoes in a row that were missed, after which a tower counts as one that does not echo."""
 
 
 @dataclass
@@ -58,8 +58,10 @@ class TowerStatistics:
 class Tower:
     """User messages over a transport; used by one exchange at a time."""
 
-    def __init__(self, transport: Transport) -> None:
+    def __init__(self, transport: Transport, patience: Patience | None = None) -> None:
+        """``patience`` is for a line that may be behind the clock of the transport."""
         self.statistics = TowerStatistics()
+        self._patience = patience
         self._transport = transport
         self._decoder = Decoder()
         self._inbox: deque[int] = deque()
@@ -94,6 +96,11 @@ class Tower:
         """Simulated seconds."""
         return self._transport.now()
 
+    @property
+    def least_wait(self) -> float:
+        """Simulated seconds in which an answer may come, if it need not come sooner."""
+        return 0.0 if self._patience is None else self._patience.answer
+
     def send(self, number: int) -> float:
         """Send a user message; the simulated time at which its last bit is out. PortGoneError.
 
@@ -105,6 +112,8 @@ class Tower:
             self._wake()
         self._write(encode_message(number))
         self._sending_until = self.now() + MESSAGE_SECONDS
+        if self._patience is not None and self._expected:
+            self._await_echo(self._patience)
         self.statistics.sent += 1
         logger.debug("%s: -> %d", self.name, number)
         return self._sending_until
@@ -127,6 +136,18 @@ class Tower:
             self._take(data)
             if self.now() >= until:
                 return
+
+    def _await_echo(self, patience: Patience) -> None:
+        """See a message go out: no answer to it can come before."""
+        until = self.now() + patience.echo(known=self.statistics.echoes > 0)
+        while self._expected and (data := self._transport.read(until)):
+            self._take(data)
+        if self._expected:
+            self._settle_echo()
+            self._echoes_missed += 1
+        else:
+            patience.note(self.now() - self._sending_until)
+            self._sending_until = max(self._sending_until, self.now())
 
     def _wake(self) -> None:
         self.statistics.wakes += 1
@@ -192,6 +213,7 @@ def open_tower(port: str | Transport, speed: float = 1.0, interrupted: Callable[
         transport = CharacterDevice(port.removeprefix(USB), clock)
     else:
         transport = SerialPort(port, clock)
-    tower = Tower(transport if interrupted is None else Interruptible(transport, interrupted))
+    patience = Patience(speed) if isinstance(port, str) and speed > 1 else None
+    tower = Tower(transport if interrupted is None else Interruptible(transport, interrupted), patience)
     tower.open()
     return tower

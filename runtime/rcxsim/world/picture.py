@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
 from typing import NamedTuple
 from xml.sax.saxutils import escape
 
+from golc.diagnostics import DeviceError
 from golc.runtime.rcxsim.world.floor import Floor, Rectangle
 from golc.runtime.rcxsim.world.geometry import Point, Pose
 from golc.runtime.rcxsim.world.record import Happening, Record, Step, simplified
 from golc.runtime.rcxsim.world.robot import Robot
 from golc.runtime.rcxsim.world.scene import Scene
+from golc.syntax.text import unwritable
 
 MARGIN = 60.0
 """mm around everything."""
 WIDEST = 1000
 """Pixels of the longer side."""
+LETTERS = 60
+"""The longer side, in heights of letters."""
+LETTER_WIDTH = 0.7
+"""Of a bold letter, in its height, about."""
+STEEP = 0.4
+"""How far to the side a name stands that is no longer above or below its mark: the sine of the angle."""
 PATH_COLOURS = 24
 """So many parts of the path have colours of their own, from the first to the last."""
 FIRST_HUE, LAST_HUE = 210, 0
@@ -31,17 +41,46 @@ class _Box(NamedTuple):
     top: float
 
 
+class _Name(NamedTuple):
+    text: str
+    x: float
+    y: float
+    anchor: str
+
+
+@contextmanager
+def drawing(path: Path, picture: Callable[[], str]) -> Iterator[None]:
+    """Write a picture into a file in the end; the file is opened in the beginning.
+
+    Raises UserError in the beginning, and DeviceError in the end, if the file cannot be written.
+    """
+    try:
+        file = path.open("w", encoding="utf-8")
+    except OSError as error:
+        raise unwritable(path, error) from None
+    try:
+        yield
+    finally:
+        try:
+            with file:
+                file.write(picture())
+        except OSError as error:
+            raise DeviceError(f"cannot write the picture {path}: {error.strerror}") from None
+
+
 def draw(scene: Scene, record: Record, pose: Pose) -> str:
     """The text of an SVG file; ``pose`` is where the robot is in the end."""
     record.end()
     paths = record.paths
     box = _box(scene, paths, pose)
+    text = max(box.right - box.left, box.top - box.bottom) / LETTERS
+    names = [*_names(scene.floor, text)]
+    box = _with_names(box, names, text)
     width, height = box.right - box.left, box.top - box.bottom
     scale = WIDEST / max(width, height)
     size = f'width="{width * scale:.0f}" height="{height * scale:.0f}"'
     view = f'viewBox="{_n(box.left)} {_n(-box.top)} {_n(width)} {_n(height)}"'
     # One unit is a mm; y grows upwards in the world and downwards in SVG.
-    text = max(width, height) / 60
     return "\n".join(
         [
             f'<svg xmlns="http://www.w3.org/2000/svg" {size} {view} font-family="sans-serif" font-size="{_n(text)}">',
@@ -49,10 +88,13 @@ def draw(scene: Scene, record: Record, pose: Pose) -> str:
             f'<rect x="{_n(box.left)}" y="{_n(-box.top)}" width="{_n(width)}" height="{_n(height)}"'
             f' fill="{_grey(scene.floor.light)}"/>',
             *_things(scene.floor),
-            *_names(scene.floor, text),
             *_path(paths, text),
-            *_marks(record.happenings, text),
             *_robot(scene.robot, pose),
+            # What is read lies on everything else, with a light border, for it may lie on something dark.
+            f'<g paint-order="stroke" stroke="#fff" stroke-width="{_n(text / 5)}" stroke-linejoin="round">',
+            *map(_written, names),
+            *_marks(record.happenings, text),
+            "</g>",
             "</svg>",
             "",
         ]
@@ -107,13 +149,34 @@ def _things(floor: Floor) -> Iterator[str]:
         yield f'<polyline points="{points}" stroke="#722" stroke-width="8" stroke-linecap="round"/>'
 
 
-def _names(floor: Floor, text: float) -> Iterator[str]:
+def _names(floor: Floor, text: float) -> Iterator[_Name]:
+    """The names of the stations, each at the left of its mark and away from it."""
     for station in floor.stations.values():
-        x, y = station.mark.pose.place(0.0, station.mark.width / 2 + 1.2 * text)
-        yield f'<text x="{_n(x)}" y="{_n(-y)}" {CENTRED} font-weight="bold">{escape(station.name)}</text>'
+        mark = station.mark
+        x, y = mark.pose.place(0.0, mark.width / 2 + text)
+        across = (x - mark.pose.x) / (mark.width / 2 + text)
+        anchor = "middle" if abs(across) < STEEP else "end" if across < 0 else "start"
+        yield _Name(station.name, x, y, anchor)
 
 
-CENTRED = 'text-anchor="middle" dominant-baseline="central"'
+def _with_names(box: _Box, names: Sequence[_Name], text: float) -> _Box:
+    """The box with room for the names."""
+    left, bottom, right, top = box
+    for name in names:
+        width = len(name.text) * LETTER_WIDTH * text
+        start = name.x - {"start": 0.0, "middle": width / 2, "end": width}[name.anchor]
+        left, right = min(left, start - text), max(right, start + width + text)
+        bottom, top = min(bottom, name.y - text), max(top, name.y + text)
+    return _Box(left, bottom, right, top)
+
+
+def _written(name: _Name) -> str:
+    place = f'x="{_n(name.x)}" y="{_n(-name.y)}" {MIDDLE} text-anchor="{name.anchor}"'
+    return f'<text {place} font-weight="bold">{escape(name.text)}</text>'
+
+
+MIDDLE = 'dy=".35em"'
+"""A text around its height, not above it; not every viewer knows ``dominant-baseline``."""
 
 
 def _path(paths: Sequence[Sequence[Step]], text: float) -> Iterator[str]:
@@ -162,12 +225,13 @@ def _marks(happenings: Sequence[Happening], text: float) -> Iterator[str]:
         side = list(SHOWN.values()).index(sign) - len(SHOWN) / 2
         x, y = found[0].pose.x + side * text, found[0].pose.y - text
         told = "\n".join(f"{happening.time:.1f} s: {happening.what} {happening.text}" for happening in found)
-        yield f'<text x="{_n(x)}" y="{_n(-y)}" {CENTRED} fill="#114">{sign}<title>{escape(told)}</title></text>'
+        place = f'x="{_n(x)}" y="{_n(-y)}" {MIDDLE} text-anchor="middle"'
+        yield f'<text {place} fill="#114">{sign}<title>{escape(told)}</title></text>'
 
 
 def _robot(robot: Robot, pose: Pose) -> Iterator[str]:
     """Where the robot is in the end: its outline, and where its front is."""
-    outline = 'fill="none" stroke="#111" stroke-width="3"'
+    outline = 'fill="#fff" fill-opacity=".25" stroke="#111" stroke-width="3"'  # to be seen on a dark floor too
     x, y, radius = _n(pose.x), _n(-pose.y), _n(robot.radius)
     yield f'<circle cx="{x}" cy="{y}" r="{radius}" {outline}><title>the robot in the end</title></circle>'
     arrow = [(0.8, 0.0), (0.3, 0.3), (0.3, -0.3)]

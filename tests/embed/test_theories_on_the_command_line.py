@@ -1,0 +1,95 @@
+"""Commands read theories in Python as they read texts, and say that they execute them."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from golc.cli import invoke
+
+LAMP = """
+from golc.embed import Theory, bind, causes, poss
+
+print("made")
+theory = Theory("lamp")
+lit = theory.fluent("lit", initial=False)
+
+
+@theory.action
+def flash():
+    poss(not lit)
+    causes(lit, True)
+
+
+@theory.proc
+def control():
+    flash()
+
+
+@theory.device("host", file="lamp.py")
+def host():
+    bind(flash, call="flash_it")
+
+
+def flash_it():
+    with open("flashed", "w") as file:
+        file.write("yes")
+"""
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "lamp.py").write_text(LAMP)
+    return tmp_path
+
+
+def test_a_command_says_once_that_it_executes_the_theory(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert invoke(["plan", "lamp.py"]) == 0
+    out, err = capsys.readouterr()
+    assert out == "flash\n"
+    assert err.splitlines() == ["executes lamp.py", "made", "1 plan"]
+
+
+def test_what_a_theory_prints_is_no_result(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert invoke(["check", "-q", "--format", "json", "lamp.py"]) == 0
+    out, err = capsys.readouterr()
+    assert json.loads(out)["findings"] == []
+    assert err == "made\n"
+
+
+def test_a_theory_can_be_the_host_of_its_actions(folder: Path) -> None:
+    assert invoke(["run", "lamp.py"]) == 0
+    assert (folder / "flashed").read_text() == "yes"
+
+
+def test_a_golc_ignore_comment_is_heeded(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    unused = 'spare = theory.fluent("spare", initial=False)'
+    text = LAMP.replace("\n\n@theory.action", f"{unused}\n\n\n@theory.action", 1)
+    Path("noisy.py").write_text(text)
+    Path("quiet.py").write_text(text.replace(unused, f"{unused}  # golc: ignore[GL027]"))
+
+    assert invoke(["check", "noisy.py"]) == 0
+    assert "fluent `spare` is not used" in capsys.readouterr().out
+    assert invoke(["check", "quiet.py"]) == 0
+    assert capsys.readouterr().out == ""
+
+
+def test_a_constant_is_replaced(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("lift.py").write_text(
+        "from golc.embed import Theory, causes, interval, poss\n"
+        'theory = Theory("lift")\n'
+        'top = theory.const("top", 3)\n'
+        'floor = theory.type("floor", interval(1, top))\n'
+        'at = theory.fluent("at", floor, 1)\n'
+        "@theory.action\n"
+        "def up():\n"
+        "    poss(at < top)\n"
+        "    causes(at, at + 1)\n"
+        'theory.goal("high", at == top)\n'
+    )
+
+    assert invoke(["plan", "lift.py", "--goal", "high", "-D", "top=5"]) == 0
+    assert capsys.readouterr().out == "up\nup\nup\nup\n"
