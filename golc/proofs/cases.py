@@ -152,6 +152,20 @@ def explore(new: Callable[[list[tuple[int, int]]], C], ask: Callable[[C], T]) ->
         decisions[-1] = (way + 1, ways)
 
 
+def within_reads(ask: Callable[[C], T]) -> Callable[[C], T]:
+    """The same question, of which all cases together look at slots no more often than a single one may."""
+    reads = 0
+
+    def asked(case: C) -> T:
+        nonlocal reads
+        case.reads = reads
+        answer = ask(case)
+        reads = case.reads
+        return answer
+
+    return asked
+
+
 def sample(domains: Sequence[Domain], ask: Callable[[Case], T], seed: int) -> Iterator[tuple[Case, T]]:
     """What ``ask`` answers in cases by chance, without end; the same ones for the same seed."""
     chance = random.Random(seed)

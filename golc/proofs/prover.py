@@ -10,7 +10,7 @@ from typing import Any
 
 from golc.diagnostics import ProgramError
 from golc.proofs.asking import Asking, Leaf
-from golc.proofs.cases import Case, explore, sample
+from golc.proofs.cases import Case, explore, sample, within_reads
 from golc.proofs.domains import Domain
 from golc.proofs.questions import Question, Undecided, Witness
 from golc.proofs.smallest import rank, reduced, smallest
@@ -78,20 +78,12 @@ class Prover:
         if not all(case.whole for case, _ in found):
             undecided = undecided or Undecided("a value is asked for that cannot be enumerated")
         if any(leaf.is_witness for _, leaf in found):
-            return self._witness(question, domains, found, small and undecided is None)
+            return self._witness(question, domains, found, small, all_=undecided is None)
         return undecided and self._solved(question, domains, undecided)
 
     def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, Leaf]]:
         """Whether what is asked is so, case by case; of many cases some by chance before the rest in order."""
-        reads = 0
-
-        def ask(case: Case) -> Leaf:
-            nonlocal reads
-            case.reads = reads
-            leaf = self.asking.leaf(question, case)
-            reads = case.reads
-            return leaf
-
+        ask = within_reads(partial(self.asking.leaf, question))
         every = explore(partial(Case, domains), ask)
         yield from itertools.islice(every, IN_ORDER)
         first = next(every, None)
@@ -119,23 +111,29 @@ class Prover:
         try:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
                 if leaf.is_witness:
-                    return self._witness(question, domains, [(case, leaf)])
+                    return self._witness(question, domains, [(case, leaf)], small=True)
         except NotDecidedError as error:
             return Undecided(f"{why.reason}; {error}")
         return Undecided(f"{why.reason}; what the solver says is not confirmed")
 
     def _witness(
-        self, question: Question, domains: Sequence[Domain], cases: Sequence[tuple[Case, Leaf]], all_: bool = False
+        self,
+        question: Question,
+        domains: Sequence[Domain],
+        cases: Sequence[tuple[Case, Leaf]],
+        small: bool,
+        all_: bool = False,
     ) -> Witness:
-        """The smallest witness of those in some cases, or of all, if these are all cases."""
+        """A witness of those in some cases; if it is to be ``small``, a smallest one, or of all, if these are all
+        cases."""
         first = self.asking.layout.size
-        if all_ and not any(case.open for case, _ in cases):
+        if small and all_ and not any(case.open for case, _ in cases):
             found = smallest([leaf for _, leaf in cases], domains, first)
             if found is not None:
                 return self._fixed(question, domains, found, {*found})
         case, leaf = min([pair for pair in cases if pair[1].is_witness], key=lambda pair: _worth(pair[0], domains))
         values = case.values()
-        matter = None if case.open else reduced(self.asking, question, values, leaf.answer)
+        matter = None if case.open or not small else reduced(self.asking, question, values, leaf.answer)
         return replace(self._fixed(question, domains, values, matter), certain=case.guesses < 2)
 
     def _fixed(

@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from golc.proofs.asking import Asking, Leaf
-from golc.proofs.cases import Box, Case, explore
+from golc.proofs.cases import Box, Case, explore, within_reads
 from golc.proofs.domains import Domain, Some, any_of
 from golc.proofs.questions import Question
 from golc.proofs.symbols import NotDecidedError, Range
@@ -64,7 +64,8 @@ def reduced(asking: Asking, question: Question, values: Mapping[int, Value], ans
         domains[slot] = (values[slot] if slot in values else any_of(domains[slot]),)
     leaves: list[Leaf] = []
     try:
-        for case, leaf in explore(partial(Case, domains), partial(asking.leaf, question, assuming=False)):
+        ask = within_reads(partial(asking.leaf, question, assuming=False))
+        for case, leaf in explore(partial(Case, domains), ask):
             if case.open or not case.whole or len(leaves) == MOST_LEAVES:
                 return None
             leaves.append(Leaf(leaf.box, leaf.answer if leaf.answer == answer else None))
