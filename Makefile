@@ -23,7 +23,7 @@ test: $(VENV)/ready nqc
 
 # Property tests on 5,000 new examples each.
 thorough: $(VENV)/ready nqc
-	GOLC_EXAMPLES=5000 $(BIN)/pytest -q --timeout=3600 tests/syntax/test_round_trip.py tests/syntax/test_format.py tests/situation tests/program/test_definitions.py
+	GOLC_EXAMPLES=5000 $(BIN)/pytest -q --timeout=3600 tests/syntax/test_round_trip.py tests/syntax/test_round_trip_through_python.py tests/syntax/test_format.py tests/situation tests/program/test_definitions.py
 
 # The manual as a site: build/docs/index.html
 docs: $(VENV)/ready

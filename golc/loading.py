@@ -22,7 +22,8 @@ from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
 if TYPE_CHECKING:
-    from golc.embed.theory import Theory, Written
+    from golc.embed.parts import Written
+    from golc.embed.theory import Theory
 
 Domain: TypeAlias = "str | Path | Theory"
 """Where a theory comes from: the path of a file, which is Python if it ends in ``.py``, or an object of Python."""

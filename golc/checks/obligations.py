@@ -8,7 +8,7 @@ from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Span
 from golc.proofs.among import Among
 from golc.proofs.prover import Prover
 from golc.proofs.questions import Question, Undecided, Witness
-from golc.theory.theory import Action, BasicActionTheory
+from golc.theory.theory import Action, BasicActionTheory, Static
 from golc.theory.types import show_call
 
 
@@ -51,9 +51,21 @@ class Obligations:
     def not_decided(self, why: Undecided, what: str, span: Span) -> None:
         """Report that nobody knows, and why."""
         self.undecided += 1
+        if why.function is not None:
+            self._not_executed(self.theory.statics[why.function])
+            return
         message = f"{what} is not decided: {why.reason}"
         note = Diagnostic(Code.NOT_DECIDED, message, span, Severity.NOTE, "not decided", help=why.help)
         self.findings.add(note)
+
+    def _not_executed(self, static: Static) -> None:
+        """Say once that a function of Python would decide something."""
+        if self._is_new(Code.NOT_DECIDED, static.span):
+            message = f"what depends on `{static.name}` is not decided: its file is not executed"
+            help_ = "`--trust` would decide it: it executes the file"
+            self.findings.add(
+                Diagnostic(Code.NOT_DECIDED, message, static.span, Severity.NOTE, "a function of Python", help=help_)
+            )
 
     def error(
         self,

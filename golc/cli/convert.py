@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @click.command(name="convert", short_help="Write a domain as Python, or Python as a domain.")
 @click.argument("file", metavar="FROM")
-@click.argument("target", metavar="TO", default="-")
+@click.argument("target", metavar="[TO]", default="-")
 @click.option("-f", "--force", is_flag=True, help="Replace the file TO if it exists.")
 @console_options
 def command(console: Console, file: str, target: str, force: bool) -> int:
@@ -34,7 +34,7 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
     from golc.rendering import render
 
     to_golc = Path(file).suffix == ".py"
-    if target != "-" and (Path(target).suffix == ".py") == to_golc:
+    if Path(target).suffix == (".py" if to_golc else ".gl"):
         raise click.UsageError(f"of `{file}` and `{target}` one has to end in `.py`, the other not")
     if target != "-" and not force and Path(os.path.realpath(target)).is_file():
         console.err(f"error: `{target}` exists already\n  = help: `--force` replaces it")

@@ -12,8 +12,9 @@ from types import ModuleType, TracebackType
 
 from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
 from golc.embed.errors import refused
+from golc.embed.parts import Written
 from golc.embed.places import code_span, line_span, offset, source_of
-from golc.embed.theory import Theory, Written
+from golc.embed.theory import Theory
 from golc.theory.python_file import logger
 
 HERE = str(Path(__file__).parent)

@@ -3,41 +3,36 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
 from types import FunctionType
 from typing import Any, overload
 
-from golc.diagnostics import Code, Findings, Source, Span
+from golc.diagnostics import Code, Span
 from golc.embed import words
-from golc.embed.clauses import Clauses, table_of
-from golc.embed.depth import check_depth
 from golc.embed.errors import Refused, meaningless, refused
-from golc.embed.functions import translated
 from golc.embed.names import golc_name, new_name
+from golc.embed.parts import Parts, Written
 from golc.embed.places import caller, calling_frame, frame_span
-from golc.embed.programs import Programs
+from golc.embed.reading.actions import Actions
+from golc.embed.reading.axioms import Axioms
+from golc.embed.reading.devices import Devices
+from golc.embed.reading.functions import translated
+from golc.embed.reading.programs import Programs
+from golc.embed.reading.scenarios import Scenarios
+from golc.embed.reading.tables import table_of
 from golc.embed.terms import Named, expr
 from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
-from golc.theory.recursion import deep_recursion
-
-Making = Callable[[], "tree.Declaration"]
-"""Translates a declaration when the theory is complete."""
 
 MISSING: Any = object()
 
+WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
 
-class Translator(Clauses, Programs):
+SPACES = {"action": "action", "exogenous action": "action", "procedure": "action", "scenario": "scenario"}
+"""The namespaces of the kinds of declarations that do not share that of terms."""
+
+
+class Translator(Actions, Axioms, Scenarios, Devices, Programs):
     """Everything that a translated function may hold."""
-
-
-@dataclass
-class Written:
-    """The tree of a theory, what is wrong with its Python, and the sources, its own file first."""
-
-    file: tree.File
-    findings: Findings
-    sources: tuple[Source, ...]
 
 
 class Theory:
@@ -50,7 +45,7 @@ class Theory:
     def __init__(self, domain: str) -> None:
         self._place = caller()
         self._domain = new_name(domain, self._place)
-        self._parts: list[Making | Theory] = []
+        self._parts = Parts()
         self._types: dict[str, object] = {}
 
     def __repr__(self) -> str:
@@ -66,13 +61,13 @@ class Theory:
     def import_(self, path: str) -> None:
         """``import "warehouse.gl"``: the declarations of a file, relative to this one, join the theory."""
         node = tree.Import(path, span=caller())
-        self._parts.append(lambda: node)
+        self._parts.put(("import", path), lambda: node)
 
     def include(self, other: Theory) -> None:
         """The declarations of another theory join this one."""
         if not isinstance(other, Theory):
             raise refused(Code.PYTHON_VALUE, "only a theory can be included", caller())
-        self._parts.append(other)
+        self._parts.include(other._parts)
 
     @overload
     def const(self, what: str, /, value: object) -> Named: ...
@@ -106,13 +101,15 @@ class Theory:
 
             def decorated(function: Callable[..., Any]) -> TypeHandle:
                 made = self._translate(function, "type", make, name)
-                return self._types.setdefault(made.name, elsewhere(tree.Ident(made.name)))  # type: ignore[return-value]
+                handle = elsewhere(tree.Ident(made.name))
+                self._types[made.name] = handle
+                return handle
 
             return decorated if what is None else decorated(what)
         ident, span = self._named(what)
         self._needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, span), span=span)
-        self._parts.append(lambda: node)
+        self._parts.put(("term", ident.text), lambda: node)
         handle = TypeHandle(ident.text, node.type, self._types.get)
         self._types[ident.text] = handle
         return handle
@@ -225,7 +222,7 @@ class Theory:
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Axiom(head, t.heads(), t.cases(), span=t.function.span)
 
-        return lambda function: self._translate(function, "fluent", make, head.text)
+        return lambda function: self._translate(function, "fluent", make, head.text, "axiom")
 
     def initially(self, condition: object) -> Any:
         """``initially φ``: a constraint on the first situation; with a formula, or a decorator."""
@@ -238,7 +235,7 @@ class Theory:
             )
         span = caller()
         node = tree.Initially(expr(condition, span), span=span)
-        self._parts.append(lambda: node)
+        self._parts.put(object(), lambda: node)
         return None
 
     def invariant(self, name: Any = None, condition: object = MISSING) -> Any:
@@ -283,38 +280,13 @@ class Theory:
         def make(t: Translator, _: tree.Ident) -> tree.Declaration:
             return tree.Device(what, called, file, t.settings(), span=t.function.span)
 
-        return lambda function: self._translate(function, "device", make, kind)
+        return lambda function: self._translate(function, "device", make, kind, ("device", name))
 
     # How it becomes a tree
 
     def written(self) -> Written:
         """The tree of all declarations, with what is wrong with their Python."""
-        findings = Findings()
-        made: list[tree.Declaration] = []
-        with deep_recursion():
-            for making in self._makings([]):
-                try:
-                    node = making()
-                    check_depth(node)
-                except Refused as error:
-                    for diagnostic in error.diagnostics:
-                        findings.add(diagnostic)
-                else:
-                    made.append(node)
-        source = self._place.source
-        others = {id(node.span.source): node.span.source for node in made if node.span.source is not source}
-        file = tree.File(self._domain, tuple(made), span=self._place)
-        return Written(file, findings, (source, *others.values()))
-
-    def _makings(self, seen: list[Theory]) -> list[Making]:
-        seen.append(self)
-        found: list[Making] = []
-        for part in self._parts:
-            if not isinstance(part, Theory):
-                found.append(part)
-            elif not any(part is each for each in seen):
-                found += part._makings(seen)
-        return found
+        return self._parts.written(self._domain, self._place)
 
     # What the declarations share
 
@@ -335,29 +307,35 @@ class Theory:
         kind: str,
         make: Callable[[Translator, tree.Ident], tree.Declaration],
         name: str | None = None,
+        space: object = None,
     ) -> Named:
         """Keep a function until the theory is complete; what stands for it in the meantime."""
         try:
             meant = translated(function)
             text = meant.name if name is None else name
             ident = new_name(text, meant.name_span)
+            if kind in WITHOUT_PARAMETERS and meant.parameters():
+                arg = meant.parameters()[0]
+                help_ = "write `… for n in station` in it; with a default it is a constant of Python"
+                raise meaningless(f"`{arg.arg}` is a parameter, and no {kind} has any", meant.place(arg), help_)
         except Refused as error:
-            return self._broken(error, function, kind, name)
+            return self._broken(error, function, kind, name, space)
 
         def making() -> tree.Declaration:
             return make(Translator(meant), ident)
 
-        self._parts.append(making)
+        self._parts.put((space or SPACES.get(kind, "term"), text), making)
         return Named(text, kind, tuple(golc_name(arg.arg) for arg in meant.parameters()))
 
-    def _broken(self, error: Refused, function: object, kind: str, name: str | None) -> Named:
+    def _broken(self, error: Refused, function: object, kind: str, name: str | None, space: object) -> Named:
         """Something to go on with for a function that cannot be translated, which is said with everything else."""
 
         def making() -> tree.Declaration:
             raise error
 
-        self._parts.append(making)
-        return Named(name or golc_name(getattr(function, "__name__", "nothing")), kind)
+        text = name or golc_name(getattr(function, "__name__", "nothing"))
+        self._parts.put((space or SPACES.get(kind, "term"), text), making)
+        return Named(text, kind)
 
     def _formula(self, kind: Any, what: str, name: Any, condition: object) -> Any:
         if condition is not MISSING:
@@ -377,7 +355,7 @@ class Theory:
         return lambda function: self._translate(function, what, make, name)
 
     def _add(self, node: Any, kind: str, heads: tuple[tree.Parameter, ...] = ()) -> Named:
-        self._parts.append(lambda: node)
+        self._parts.put((SPACES.get(kind, "term"), node.name.text), lambda: node)
         return Named(node.name.text, kind, tuple(head.name.text for head in heads))
 
     def _named(self, name: object) -> tuple[tree.Ident, Span]:

@@ -85,7 +85,7 @@ class Asking:
         try:
             return all(self._step(step, case) for step in question.steps) and not question.fails
         except NotExecutedError as error:
-            raise NeedsPythonError(error.why) from None
+            raise NeedsPythonError(error.name) from None
         except ProgramError as error:
             return error if question.fails else False
 
@@ -94,7 +94,7 @@ class Asking:
         try:
             return all(self._value(invariant, case, case) for invariant in self._assumed)
         except NotExecutedError as error:
-            raise NeedsPythonError(error.why) from None
+            raise NeedsPythonError(error.name) from None
         except ProgramError:
             return False
 

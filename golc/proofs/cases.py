@@ -20,8 +20,21 @@ C = TypeVar("C", bound="Case")
 Box: TypeAlias = Mapping[int, "Value | Range"]
 """What each of some slots may be: one value, or the integers of a range."""
 
-MOST_READS = 500_000
+MOST_LOOKS = 200_000
 """How often one question may look at a slot: what uses a definition twice, which uses another one twice, takes long."""
+
+
+class Budget:
+    """How often slots may still be looked at."""
+
+    def __init__(self, left: int = MOST_LOOKS) -> None:
+        self.left = left
+
+    def spend(self) -> None:
+        """Count a look; raises ``NotDecidedError`` when there have been enough."""
+        self.left -= 1
+        if self.left < 0:
+            raise NotDecidedError("it takes too long to evaluate")
 
 
 class Case:
@@ -35,6 +48,7 @@ class Case:
         domains: Sequence[Domain] | Mapping[int, Domain],
         decisions: list[tuple[int, int]],
         chance: random.Random | None = None,
+        budget: Budget | None = None,
     ) -> None:
         self.cells: dict[int, Value] = {}
         self.whole = True
@@ -43,14 +57,13 @@ class Case:
         """What was decided so far, in order: which way, of how many."""
         self.guesses = 0
         """How often it was guessed what the agent knows. One guess may be right; several need not go together."""
-        self.reads = 0
-        """How often a slot was looked at."""
         self.open = False
         """Whether something was decided that no slot holds."""
         self._domains = domains
         self._ranges: dict[int, Range] = {}
         self._next = 0
         self._chance = chance
+        self._budget = budget or Budget()
 
     def choose(self, ways: int) -> int:
         """Decide which of several ways things are."""
@@ -73,9 +86,7 @@ class Case:
 
     def look(self) -> None:
         """Count a look at a slot."""
-        self.reads += 1
-        if self.reads > MOST_READS:
-            raise NotDecidedError("it takes too long to evaluate")
+        self._budget.spend()
 
     def __getitem__(self, slot: int) -> Value:
         slot = int(slot)
@@ -95,6 +106,7 @@ class Case:
 
     def is_below(self, slot: int, bound: int) -> bool:
         """Whether the integer in a slot is less than a bound."""
+        self.look()
         range_ = self._ranges[slot]
         if range_.high is not None and range_.high < bound:
             return True
@@ -152,23 +164,9 @@ def explore(new: Callable[[list[tuple[int, int]]], C], ask: Callable[[C], T]) ->
         decisions[-1] = (way + 1, ways)
 
 
-def within_reads(ask: Callable[[C], T]) -> Callable[[C], T]:
-    """The same question, of which all cases together look at slots no more often than a single one may."""
-    reads = 0
-
-    def asked(case: C) -> T:
-        nonlocal reads
-        case.reads = reads
-        answer = ask(case)
-        reads = case.reads
-        return answer
-
-    return asked
-
-
-def sample(domains: Sequence[Domain], ask: Callable[[Case], T], seed: int) -> Iterator[tuple[Case, T]]:
+def sample(domains: Sequence[Domain], ask: Callable[[Case], T], seed: int, budget: Budget) -> Iterator[tuple[Case, T]]:
     """What ``ask`` answers in cases by chance, without end; the same ones for the same seed."""
     chance = random.Random(seed)
     while True:
-        case = Case(domains, [], chance)
+        case = Case(domains, [], chance, budget)
         yield case, ask(case)

@@ -10,7 +10,7 @@ from typing import Any
 
 from golc.diagnostics import ProgramError
 from golc.proofs.asking import Asking, Leaf
-from golc.proofs.cases import Case, explore, sample, within_reads
+from golc.proofs.cases import MOST_LOOKS, Budget, Case, explore, sample
 from golc.proofs.domains import Domain
 from golc.proofs.questions import Question, Undecided, Witness
 from golc.proofs.smallest import rank, reduced, smallest
@@ -25,6 +25,9 @@ IN_ORDER, BY_CHANCE = 200, 300
 MOST_CASES = 2_000
 """How many cases of one question are gone through."""
 
+ALL_LOOKS, FEW_LOOKS = 2_000_000, 20_000
+"""How often all questions about a theory may look at slots, and each of them still may when they have done so."""
+
 MORE_CASES = 500
 """How many cases are gone through to try out what a solver has found."""
 
@@ -38,6 +41,7 @@ class Prover:
 
     def __post_init__(self) -> None:
         self.asking = Asking(self.theory, GUESS)
+        self._looks = ALL_LOOKS
 
     def answer(self, question: Question, small: bool = True) -> Witness | Undecided | None:
         """A witness; none if there is provably none. If it is to be ``small``, a smallest one of those in the cases
@@ -45,7 +49,11 @@ class Prover:
         """
         question = self._weakening.in_order(question)
         answer = self._explored(question, small)
-        weaker = self._weakening.weaker(question) if isinstance(answer, Undecided) else None
+        if not isinstance(answer, Undecided):
+            return answer
+        weaker = self._weakening.weaker(question)
+        if weaker is None and len(self._coarse.theory.invariants) < len(self.theory.invariants):
+            weaker = question
         if weaker is None or (not weaker.steps and not question.fails):
             return answer
         return None if not weaker.steps or self._coarse.answer(weaker, small=False) is None else answer
@@ -72,7 +80,7 @@ class Prover:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
         except NeedsPythonError as error:
-            return Undecided(str(error), error.help)
+            return Undecided(str(error), function=error.name)
         except NotDecidedError as error:
             undecided = Undecided(str(error))
         if not all(case.whole for case, _ in found):
@@ -83,14 +91,19 @@ class Prover:
 
     def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, Leaf]]:
         """Whether what is asked is so, case by case; of many cases some by chance before the rest in order."""
-        ask = within_reads(partial(self.asking.leaf, question))
-        every = explore(partial(Case, domains), ask)
-        yield from itertools.islice(every, IN_ORDER)
-        first = next(every, None)
-        if first is not None:
-            yield from itertools.islice(sample(domains, ask, seed=0), BY_CHANCE)
-            yield first
-            yield from every
+        allowed = min(MOST_LOOKS, max(self._looks, FEW_LOOKS))
+        budget = Budget(allowed)
+        ask = partial(self.asking.leaf, question)
+        every = explore(partial(Case, domains, budget=budget), ask)
+        try:
+            yield from itertools.islice(every, IN_ORDER)
+            first = next(every, None)
+            if first is not None:
+                yield from itertools.islice(sample(domains, ask, 0, budget), BY_CHANCE)
+                yield first
+                yield from every
+        finally:
+            self._looks -= allowed - budget.left
 
     def _solved(self, question: Question, domains: list[Domain], why: Undecided) -> Witness | Undecided | None:
         """What a solver answers, if there is one; a witness of its is tried out."""
@@ -124,8 +137,7 @@ class Prover:
         small: bool,
         all_: bool = False,
     ) -> Witness:
-        """A witness of those in some cases; if it is to be ``small``, a smallest one, or of all, if these are all
-        cases."""
+        """A witness of those in some cases; if it is to be ``small``, the smallest, or of all, if these are all cases."""
         first = self.asking.layout.size
         if small and all_ and not any(case.open for case, _ in cases):
             found = smallest([leaf for _, leaf in cases], domains, first)

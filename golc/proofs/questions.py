@@ -90,10 +90,14 @@ class Witness:
 
 @dataclass(frozen=True)
 class Undecided:
-    """Neither a witness was found, nor a proof that there is none: why, and what would decide it."""
+    """Neither a witness was found, nor a proof that there is none: why, and what would decide it.
+
+    ``function``: the static that would have to be called for that, a function of Python that is not executed.
+    """
 
     reason: str
     help: str | None = None
+    function: str | None = None
 
 
 def terms_of(theory: BasicActionTheory, step: Step) -> Iterator[Term]:

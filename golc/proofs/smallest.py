@@ -12,17 +12,20 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from golc.proofs.asking import Asking, Leaf
-from golc.proofs.cases import Box, Case, explore, within_reads
+from golc.proofs.cases import Box, Budget, Case, explore
 from golc.proofs.domains import Domain, Some, any_of
 from golc.proofs.questions import Question
 from golc.proofs.symbols import NotDecidedError, Range
 from golc.theory.types import Value
 
-MOST_LOOKS = 400_000
+MOST_TESTS = 400_000
 """How often a value is held against a box before the search is given up."""
 
 MOST_LEAVES = 2_000
 """How many cases are told apart to see which of the values in one of them matter."""
+
+FEW_LOOKS = 50_000
+"""How often slots are looked at meanwhile."""
 
 MOST_KINDS = 10
 """How many different errors are tried as what the smallest counterexample shows."""
@@ -41,8 +44,8 @@ def smallest(
     if it takes too long.
     """
     kinds = dict.fromkeys([leaf.answer for leaf in leaves if leaf.is_witness])
-    looks = _Looks()
-    searches = [_Search(leaves, kind, domains, first, only, looks) for kind in [*kinds][:MOST_KINDS]]
+    work = _Work()
+    searches = [_Search(leaves, kind, domains, first, only, work) for kind in [*kinds][:MOST_KINDS]]
     try:
         for fluents in range(first + 1):
             for search in searches:
@@ -64,8 +67,9 @@ def reduced(asking: Asking, question: Question, values: Mapping[int, Value], ans
         domains[slot] = (values[slot] if slot in values else any_of(domains[slot]),)
     leaves: list[Leaf] = []
     try:
-        ask = within_reads(partial(asking.leaf, question, assuming=False))
-        for case, leaf in explore(partial(Case, domains), ask):
+        for case, leaf in explore(
+            partial(Case, domains, budget=Budget(FEW_LOOKS)), partial(asking.leaf, question, assuming=False)
+        ):
             if case.open or not case.whole or len(leaves) == MOST_LEAVES:
                 return None
             leaves.append(Leaf(leaf.box, leaf.answer if leaf.answer == answer else None))
@@ -76,11 +80,11 @@ def reduced(asking: Asking, question: Question, values: Mapping[int, Value], ans
 
 
 @dataclass
-class _Looks:
-    left: int = MOST_LOOKS
+class _Work:
+    left: int = MOST_TESTS
 
-    def at(self, boxes: Sequence[Box]) -> Sequence[Box]:
-        """The boxes, which are looked at."""
+    def on(self, boxes: Sequence[Box]) -> Sequence[Box]:
+        """The boxes, which are gone through."""
         self.left -= 1 + len(boxes)
         if self.left < 0:
             raise _GivenUpError
@@ -96,7 +100,7 @@ class _Search:
     domains: Sequence[Domain]
     first: int
     only: Mapping[int, Value] | None
-    looks: _Looks
+    work: _Work
     best: tuple[int, dict[int, Value]] | None = None
     """The smallest one found, and how large its values are together."""
     _candidates: dict[int, list[tuple[int, Value]]] = field(default_factory=dict)
@@ -127,8 +131,8 @@ class _Search:
                 if key in self._seen or _fits(value, within):
                     continue
                 self._seen.add(key)
-                still = [box for box in self.looks.at(wrong) if slot not in box or _fits(value, box[slot])]
-                open_ = [box for box in self.looks.at(right) if slot not in box or _fits(value, box[slot])]
+                still = [box for box in self.work.on(wrong) if slot not in box or _fits(value, box[slot])]
+                open_ = [box for box in self.work.on(right) if slot not in box or _fits(value, box[slot])]
                 self._extend(longer, size + rank, still, open_, fluents - cost)
 
     def _values(self, slot: int) -> list[tuple[int, Value]]:

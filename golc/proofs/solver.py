@@ -2,20 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 import z3
 
-from golc.proofs.encode import Encoder, Env, Read
+from golc.proofs.effort import Effort
+from golc.proofs.encode import MOST_TERMS, TOO_LONG, Encoder, Env, Read
 from golc.proofs.encoded import Encoded, Formula, both, either, negated, same, selected
-from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step
+from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, terms_of
 from golc.proofs.symbols import NotDecidedError
-from golc.theory.terms import Choice, Display, Literal
+from golc.proofs.values import LONGEST
+from golc.theory.fitting import strip_optional
+from golc.theory.terms import Binder, Choice, Display, Literal
 from golc.theory.theory import BasicActionTheory, Effect
 from golc.theory.types import Value
 
 PATIENCE = 2_000
 """Milliseconds for one question."""
+
+LONGEST_INVARIANT = 3_000
+"""How many terms an invariant may have; longer ones are left out, and a witness is tried out with them."""
+
+UNKNOWN = "the solver does not decide it"
 
 Found = tuple[Mapping[tuple[str, tuple[Value, ...]], Value], Sequence[Value]]
 """The values of ground fluents, and those of the question's variables."""
@@ -26,19 +35,35 @@ def solve(theory: BasicActionTheory, question: Question) -> Found | None:
 
     Raises ``NotDecidedError`` if the solver does not know, or the question cannot be put to it.
     """
+    effort = Effort(theory)
+    if effort.of([term for step in question.steps for term in terms_of(theory, step)]) > MOST_TERMS:
+        raise NotDecidedError(TOO_LONG)
     encoder = Encoder(theory)
     variables = tuple([encoder.variable(variable.name, variable.type) for variable in question.variables])
     asking = _Asking(theory, encoder, variables)
-    wanted = asking.question(question)
+    wanted, short = asking.question(question), encoder.shortened
+    assumed = [*asking.invariants(effort)]
+    model = _model([wanted, *[formula for formula, _ in assumed], *encoder.facts])
+    if isinstance(model, z3.ModelRef):
+        return encoder.values(model), [encoder.decoded(each, model) for each in variables]
+    # What is impossible without an invariant of which only some situations are looked at is impossible.
+    exact = [formula for formula, whole in assumed if whole]
+    if not short and (
+        (model is None and len(exact) == len(assumed)) or _model([wanted, *exact, *encoder.facts]) is None
+    ):
+        return None
+    raise NotDecidedError(f"the solver looks at lists of up to {LONGEST} elements only" if model is None else UNKNOWN)
+
+
+def _model(formulas: list[Formula]) -> Any:
+    """A model of some formulas; none if they have none, ``UNKNOWN`` if that takes too long."""
+    if any(formula is False for formula in formulas):
+        return None
     solver = z3.Solver()
     solver.set("timeout", PATIENCE)
-    solver.add(*[formula for formula in (wanted, *encoder.facts) if formula is not True])
-    answer = z3.unsat if wanted is False else solver.check()
-    if answer == z3.unsat:
-        return None
-    if answer != z3.sat:
-        raise NotDecidedError("the solver does not decide it")
-    return encoder.values(solver.model()), [encoder.decoded(each, solver.model()) for each in variables]
+    solver.add(*[formula for formula in formulas if formula is not True])
+    answer = solver.check()
+    return solver.model() if answer == z3.sat else None if answer == z3.unsat else UNKNOWN
 
 
 class _Asking:
@@ -50,16 +75,23 @@ class _Asking:
         self._variables = variables
 
     def question(self, question: Question) -> Formula:
-        """Whether every step succeeds (or one fails) in a situation in which the invariants hold."""
+        """Whether every step succeeds, or one fails."""
         steps = [self._step(step) for step in question.steps]
         before: list[Formula] = []
         failures: list[Formula] = []
         for succeeds, ok in steps:
             failures.append(both(*before, negated(ok)))
             before.append(both(ok, succeeds))
-        invariants = [self._asked(Asked(self._theory.definitions[name].body)) for name in self._theory.invariants]
-        assumed = [both(invariant.ok, invariant.truth) for invariant in invariants]
-        return both(either(*failures) if question.fails else both(*before), *assumed)
+        return either(*failures) if question.fails else both(*before)
+
+    def invariants(self, effort: Effort) -> Iterator[tuple[Formula, bool]]:
+        """The invariants that are not too long, each with whether all situations are looked at."""
+        for name in self._theory.invariants:
+            body = self._theory.definitions[name].body
+            if effort.of([body]) <= LONGEST_INVARIANT:
+                self._encoder.shortened = False
+                invariant = self._asked(Asked(body))
+                yield both(invariant.ok, invariant.truth), not self._encoder.shortened
 
     def _env(self, numbers: tuple[int, ...]) -> Env:
         return tuple([self._variables[number] for number in numbers])
@@ -84,18 +116,20 @@ class _Asking:
                 return negated(value.truth), value.ok
 
     def _works(self, effect: Effect, env: Env) -> Formula:
-        """Whether an effect can be carried out."""
-        applies, ok = self._applies(effect, env)
-        fluent = self._theory.fluents[effect.fluent]
-        args = [self._encoder.term(arg, env, self._encoder.fluent) for arg in effect.args]
-        fits = [both(a.ok, self._encoder.within(a, p.type)) for a, p in zip(args, fluent.parameters, strict=True)]
-        values = [both(v.ok, self._encoder.within(v, fluent.type)) for v in self._values(effect, env)]
-        return both(ok, either(negated(applies), both(*fits, *values)))
+        """Whether an effect can be carried out, for all values of those of its binders that ``env`` has none for."""
+        encoder, fluent = self._encoder, self._theory.fluents[effect.fluent]
+        works: list[Formula] = []
+        for inner, is_one, has_answer in encoder.environments(_open(effect), env, encoder.fluent):
+            applies, ok = self._applies(effect, inner)
+            args = [encoder.term(arg, inner, encoder.fluent) for arg in effect.args]
+            fits = [both(a.ok, encoder.within(a, p.type)) for a, p in zip(args, fluent.parameters, strict=True)]
+            fits += [both(v.ok, encoder.within(v, fluent.type)) for v in self._values(effect, inner)]
+            done = both(ok, either(negated(applies), both(*fits)))
+            works += [has_answer, either(negated(is_one), done)]
+        return both(*works)
 
     def _applies(self, effect: Effect, env: Env) -> tuple[Formula, Formula]:
         """Whether an effect takes place for some values of its binders, and whether that has an answer."""
-        if any(binder.within is not None for binder in effect.binders):
-            raise NotDecidedError("a variable runs over a collection")
         applies: Formula = True
         ok: Formula = True
         for part in (effect.where, effect.condition):
@@ -107,15 +141,16 @@ class _Asking:
 
     def _values(self, effect: Effect, env: Env) -> list[Encoded]:
         """The values that an effect may give its fluent."""
+        encoder, fluent = self._encoder, self._theory.fluents[effect.fluent]
         match effect.value:
             case Choice(among=Literal(value=values)):
-                return [self._encoder.literal(value) for value in values]  # type: ignore[attr-defined]
+                return [encoder.literal(value, strip_optional(fluent.type)) for value in values]  # type: ignore[attr-defined]
             case Choice(among=Display(elements=elements)):
-                return [self._encoder.term(element, env, self._encoder.fluent) for element in elements]
+                return [encoder.term(element, env, encoder.fluent) for element in elements]
             case Choice():
                 raise NotDecidedError("a value is one of a collection")
             case value:
-                return [self._encoder.term(value, env, self._encoder.fluent)]
+                return [encoder.term(value, env, encoder.fluent)]
 
     def _after(self, step: Afterwards, args: Env) -> Read:
         """How fluents are read after an action."""
@@ -123,11 +158,11 @@ class _Asking:
 
         def read(name: str, at: Sequence[Encoded]) -> Encoded:
             found = encoder.fluent(name, at)
-            for effect in effects:
-                for env in encoder.environments(effect.binders, args) if effect.fluent == name else ():
+            for effect in [effect for effect in effects if effect.fluent == name]:
+                for env, is_one, _ in encoder.environments(effect.binders, args, encoder.fluent):
                     applies, _ = self._applies(effect, env)
                     own = [encoder.term(arg, env, encoder.fluent) for arg in effect.args]
-                    here = both(applies, *[same(left, right) for left, right in zip(own, at, strict=True)])
+                    here = both(is_one, applies, *[same(left, right) for left, right in zip(own, at, strict=True)])
                     for value in self._values(effect, env)[:1] if here is not False else ():
                         found = selected(here, self._one_of(effect, env, value), found)
             return found
@@ -140,3 +175,8 @@ class _Asking:
         new = self._encoder.variable("new", self._theory.fluents[effect.fluent].type)
         self._encoder.facts.append(either(*[same(new, each) for each in self._values(effect, env)]))
         return new
+
+
+def _open(effect: Effect) -> tuple[Binder, ...]:
+    """The binders of an effect if they are no variables of a question, which those over collections are not."""
+    return effect.binders if any(binder.within is not None for binder in effect.binders) else ()

@@ -21,9 +21,11 @@ class NotDecidedError(Exception):
 
 
 class NeedsPythonError(NotDecidedError):
-    """What is asked depends on Python code that is not executed."""
+    """What is asked depends on a function of Python, that of the static ``name``, which is not executed."""
 
-    help = "`--trust` would decide it: it executes the file"
+    def __init__(self, name: str) -> None:
+        super().__init__(f"it depends on `{name}`, which is not executed")
+        self.name = name
 
 
 class Range:

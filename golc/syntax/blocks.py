@@ -7,6 +7,7 @@ from lark import Token
 from golc.diagnostics import Code, Diagnostic, Fix, Label, Span
 from golc.syntax.failure import LAYOUT, Failure, Hint
 from golc.syntax.fixes import block_below, end_of_line, indentation, insertion, line_end, removal, spaces_for_tabs
+from golc.syntax.keywords import closest
 from golc.syntax.layout import CLOSING, LayoutError
 from golc.syntax.words import BRANCHES, CLAUSES, STATEMENTS
 
@@ -125,6 +126,10 @@ def lost_branch(failure: Failure) -> Diagnostic | None:
         )
     for accepted, branch in (("OR", "or"), ("AND", "and"), ("_OVER", "over")):
         if failure.accepts == {accepted}:
+            if failure.kind == "NAME" and closest(str(failure.bad), [branch]) is not None:
+                return failure.finding(
+                    Code.SYNTAX, f"`{failure.bad}` is no word here", help=f"did you mean `{branch}`?"
+                )
             return failure.finding(
                 Code.MISSING,
                 f"this `{BRANCHES[branch]}` has one branch only",

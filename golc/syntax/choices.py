@@ -1,4 +1,4 @@
-"""Hints for values that are unknown, for the beginning, and for prunes."""
+"""Hints for values that are unknown, for prunes, and for functions of Python."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from itertools import pairwise
 
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.failure import Failure, Hint
-from golc.syntax.fixes import removal
 
 
 def bare_choices(failure: Failure) -> Diagnostic | None:
@@ -19,14 +18,6 @@ def bare_choices(failure: Failure) -> Diagnostic | None:
     return failure.finding(Code.SYNTAX, message, help=help)
 
 
-def initially_colon(failure: Failure) -> Diagnostic | None:
-    """``initially: φ``."""
-    if failure.kind != "COLON" or failure.line != ["initially"]:
-        return None
-    message = "behind `initially` stands a formula, without a colon"
-    return failure.finding(Code.SYNTAX, message, help="remove the colon", fix=removal(failure.here()))
-
-
 def nameless_prune(failure: Failure) -> Diagnostic | None:
     """``prune after a: φ``, where ``after`` is read as a name."""
     if failure.line[:2] != ["prune", "after"] or failure.accepts != {"COLON"}:
@@ -35,4 +26,14 @@ def nameless_prune(failure: Failure) -> Diagnostic | None:
     return failure.finding(Code.MISSING, "this prune has no name", span, "write `prune name: after …`")
 
 
-HINTS: tuple[Hint, ...] = (bare_choices, initially_colon, nameless_prune)
+def without_file(failure: Failure) -> Diagnostic | None:
+    """``extern f(a: t): int``, also with a value."""
+    if failure.line[:1] != ["extern"] or "FROM" not in failure.accepts:
+        return None
+    if failure.kind not in ("_NL", "$END", "EQ", "ASSIGN"):
+        return None
+    message, help = "this `extern` does not say in which file its function is", 'write `from "helpers.py"` at its end'
+    return failure.finding(Code.MISSING, message, failure.gap(), help)
+
+
+HINTS: tuple[Hint, ...] = (bare_choices, nameless_prune, without_file)

@@ -166,6 +166,17 @@ def _sign_at(failure: Failure) -> tuple[int, str] | None:
     return None
 
 
+def result_arrow(failure: Failure) -> Diagnostic | None:
+    """``static f(a: t) -> u``."""
+    found = _sign_at(failure)
+    typed = ("static", "extern", "fluent")
+    if found is None or found[1] != "->" or "COLON" not in failure.accepts or str(failure.line[0]) not in typed:
+        return None
+    span = failure.at(found[0], found[0] + 2)
+    fix = instead(failure.gap().to(span), ":")
+    return failure.finding(Code.FOREIGN, "a type stands behind `:`, not `->`", span, "write `:`", fix=fix)
+
+
 def foreign_word(failure: Failure) -> Diagnostic | None:
     """``then``, ``mod`` and the like; ``else if``."""
     if failure.kind == "IF" and failure.previous is not None and failure.previous.type == "ELSE":
@@ -249,5 +260,5 @@ def _invisible(failure: Failure) -> Fix | None:
     )
 
 
-NOTATION: tuple[Hint, ...] = (full_stop, foreign_sign, foreign_word)
+NOTATION: tuple[Hint, ...] = (full_stop, result_arrow, foreign_sign, foreign_word)
 CHARACTERS: tuple[Hint, ...] = (comment, character)

@@ -12,7 +12,7 @@ from lark import UnexpectedInput
 
 from golc.diagnostics import Code, Diagnostic, Fix, Source, Span
 from golc.edits import applied, moved
-from golc.syntax import blocks, choices, foreign, gaps, keywords, quantifiers, signs
+from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, quantifiers, signs, steps
 from golc.syntax.failure import Failure, Hint, failure
 from golc.syntax.layout import LayoutError
 from golc.syntax.parser import parser
@@ -20,6 +20,8 @@ from golc.syntax.parser import parser
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
     quantifiers.missing_dot,
+    *clauses.HINTS,
+    *steps.HINTS,
     *foreign.NOTATION,
     *blocks.BRACKETS,
     foreign.braces,

@@ -47,7 +47,8 @@ def missing_name(failure: Failure) -> Diagnostic | None:
         return None
     if failure.kind in ("INT", "REAL"):
         return failure.finding(Code.SYNTAX, "a name begins with a letter", help="begin it with a letter")
-    return failure.finding(Code.MISSING, f"a name is missing after `{failure.previous}`", failure.gap())
+    help = "write `rcx`, `operator`, `host` or `self`" if failure.previous == "device" else "write a name"
+    return failure.finding(Code.MISSING, f"a name is missing after `{failure.previous}`", failure.gap(), help)
 
 
 def missing_text(failure: Failure) -> Diagnostic | None:
@@ -65,7 +66,9 @@ def missing_text(failure: Failure) -> Diagnostic | None:
 def missing_unit(failure: Failure) -> Diagnostic | None:
     """``wait 5``, ``search at most 20:``."""
     if "S" in failure.accepts:
-        return failure.finding(Code.MISSING, "the unit of this time is missing", failure.gap(), "write `s`, seconds")
+        condition = failure.line[0] == "wait" and failure.line[1].type == "NAME" if len(failure.line) == 2 else False
+        help = "write `s`, seconds; or `wait until …`, if it is a condition" if condition else "write `s`, seconds"
+        return failure.finding(Code.MISSING, "the unit of this time is missing", failure.gap(), help)
     if "STEPS" in failure.accepts:
         message, gap, help = "the word `steps` is missing", failure.gap(), "write `at most … steps`"
         return failure.finding(Code.MISSING, message, gap, help, fix=insertion(gap, " steps"))
@@ -107,7 +110,7 @@ def missing_operator(failure: Failure) -> Diagnostic | None:
         Code.MISSING,
         f"{between} is missing between `{failure.previous}` and `{failure.bad}`",
         failure.gap(),
-        None if failure.brackets else "one statement, one clause a line",
+        "write what joins them" if failure.brackets else "one statement, one clause a line",
     )
 
 

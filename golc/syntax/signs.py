@@ -31,7 +31,7 @@ def wrong_sign(failure: Failure) -> Diagnostic | None:
             message = f"`:=` changes: the value of a `{first}` is written with `=`"
         return failure.finding(Code.FOREIGN, message, help="write `=`", fix=sign_at(here, "="))
     if failure.kind in ("EQ", "ASSIGN") and failure.accepts == {"COLON"}:
-        message = f"after the name of a `{first}` stands `:`, not `{failure.bad}`"
+        message = f"behind the name of `{first}` stands `:`, not `{failure.bad}`"
         return failure.finding(Code.FOREIGN, message, help="write `:`", fix=sign_at(here, ":"))
     named = len(failure.line) == 2 and first in ("const", "type", "let", "define")
     if failure.kind == "COLON" and failure.accepts & {"EQ", "ASSIGN"} and named:

@@ -47,9 +47,20 @@ class Resolver(Protocol):
 
 
 class Constants(Protocol):
-    """The value of a closed expression, which must fit a type if one is given; none if it has none (a finding)."""
+    """The value of a closed expression, which must fit a type if one is given; none if it has none (a finding).
 
-    def __call__(self, context: Context, node: tree.Expr, expected: Type | None, /) -> Literal | None: ...
+    ``parameter`` names what has the type, and ``declared`` is the place of that name.
+    """
+
+    def __call__(
+        self,
+        context: Context,
+        node: tree.Expr,
+        expected: Type | None,
+        parameter: str = "",
+        declared: Span | None = None,
+        /,
+    ) -> Literal | None: ...
 
 
 @dataclass
@@ -201,9 +212,15 @@ class Context:
 
     def _merge_missing(self) -> None:
         """Sort the uses of each missing name. A use that is like some other name is one of them all the same; and
-        what is missing inside a declaration to which nothing gives so few arguments is its parameters."""
+        what is missing inside a declaration to which nothing gives so few arguments, or which has two parameters of one
+        name, is its parameters."""
         short = self.blame.contradicted(Matter.ARITY)
-        bodies = [entry.node.span for entry in self._declarations() if entry.span in short]
+        twice = [finding for finding in self.findings.diagnostics if finding.code is Code.DUPLICATE]
+        bodies = [
+            entry.node.span
+            for entry in self._declarations()
+            if entry.span in short or any(inside(f, entry.node.span) and f.span != entry.span for f in twice)
+        ]
         for key, uses in [*self._missing.items()]:
             if key[0] == "value":
                 uses += [use for use in self.findings.diagnostics if _is_unknown(use) and use.span.text == key[1]]

@@ -201,7 +201,7 @@ def _effect(context: Context, scope: Scope, node: tree.Effect) -> tuple[Effect, 
     """The effect of a clause, or nothing if it has no meaning."""
     inner, binders = bind(context, scope, node.binders)
     where = None if node.where is None else formula(context, inner, node.where, "`where`")
-    signature = _target(context, node.target)
+    signature = _target(context, inner, node.target)
     args = None if signature is None else arguments(context, inner, node.target, signature)
     if signature is None:
         for arg in node.target.args:
@@ -215,10 +215,10 @@ def _effect(context: Context, scope: Scope, node: tree.Effect) -> tuple[Effect, 
     return (Effect(binders, where, signature.entry.name, args, value, condition, span=node.span),)
 
 
-def _target(context: Context, node: tree.Apply) -> Signature | None:
+def _target(context: Context, scope: Scope, node: tree.Apply) -> Signature | None:
     entry = context.names.values.get(node.name.text)
     if entry is None:
-        unknown_fluent(context, node.name, len(node.args))
+        unknown_fluent(context, scope, node.name, len(node.args))
         return None
     if entry.kind is not Kind.FLUENT:
         message = f"`{entry.name}` is {entry.kind.phrase}, and only fluents change"

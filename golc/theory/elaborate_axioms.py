@@ -65,7 +65,7 @@ def _head(context: Context, node: tree.Axiom) -> Signature | None:
     name = node.fluent
     entry = context.names.values.get(name.text)
     if entry is None:
-        unknown_fluent(context, name, len(node.parameters))
+        unknown_fluent(context, Scope(), name, len(node.parameters))
         return None
     if entry.kind is not Kind.FLUENT:
         labels = (Label(entry.span, "declared here"),)

@@ -9,12 +9,13 @@ from pathlib import Path
 
 from golc.diagnostics import Code, Label, Span
 from golc.syntax import tree
+from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context, Signature
 from golc.theory.elaborate_actions import SOURCES
 from golc.theory.elaborate_names import arity_fits, doing
 from golc.theory.elaborate_statements import spoken
 from golc.theory.elaborate_types import LARGEST, elaborate_type
-from golc.theory.elaborate_values import parameter_scope
+from golc.theory.elaborate_values import argument, parameter_scope
 from golc.theory.fitting import BROKEN, describe, includes, size
 from golc.theory.scope import Entry, Kind
 from golc.theory.suggest import did_you_mean
@@ -137,7 +138,7 @@ def _binding(
         return None
     args = _args(context, node, signature)
     _fits_kind(context, device, abilities, node, entry)
-    _fits_number(context, node, args)
+    _fits_number(context, node, args, abilities.numbers)
     return Binding(
         entry.name,
         args,
@@ -162,13 +163,13 @@ def _fits_kind(context: Context, device: tree.Device, abilities: Abilities, node
         context.error(Code.DEVICE, message, behaviour.span, f"not by a device `{kind}`")
 
 
-def _fits_number(context: Context, node: tree.Binding, args: tuple[Parameter | Fixed, ...]) -> None:
+def _fits_number(context: Context, node: tree.Binding, args: tuple[Parameter | Fixed, ...], numbers: bool) -> None:
     """A binding of several instances says so: it takes as many numbers, from the one that is written on."""
     count = 1
     for arg in args:
         if isinstance(arg, Parameter) and arg.type.finite:
             count *= size(arg.type)
-    if node.number is not None and count > 1 and not node.ranged:
+    if node.number is not None and numbers and count > 1 and not node.ranged:
         many = f"{count}" if count <= LARGEST else f"more than {LARGEST}"
         message = f"`{node.action.text}` has {many} instances here, and each takes a number"
         help_ = f"write `{node.number} .. {node.action.text}…`, which takes the numbers from {node.number} on"
@@ -197,15 +198,16 @@ def _arg(
                 here, there = describe(type_), describe(parameter.type)
                 message = f"`{name.text}` is of type {here} here, but of type {there} in `{action}`"
                 labels = (Label(parameter.span, "declared here"),)
-                context.error(Code.BINDING, message, node.span, "not a part of that type", labels=labels)
+                marker, blamed = "not a part of that type", [Suspect(Matter.TYPE, parameter.span)]
+                context.error(Code.BINDING, message, node.span, marker, labels=labels, suspects=blamed)
             return Parameter(name.text, type_, span=name.span)
         case tree.Ident(text=name) if name not in context.names.values.entries:
             _unknown_arg(context, node, parameter)
             return parameter
         case tree.Ident():
-            value = context.constants(context, tree.Apply(node, span=node.span), parameter.type)
+            value = argument(context, tree.Apply(node, span=node.span), parameter, action)
         case _:
-            value = context.constants(context, node, parameter.type)
+            value = argument(context, node, parameter, action)
     return Fixed(None if value is None else value.value)
 
 
@@ -265,7 +267,9 @@ def _table(context: Context, node: tree.Table, entry: Entry, senses: tuple[Term,
     places: dict[int, Span] = {}
     for line in node.entries:
         key = _number(context, line)
-        value = context.constants(context, line.value, senses[0].type)
+        if key is None and isinstance(line.value, tree.Number):
+            return None  # the wrong way round, in all lines
+        value = context.constants(context, line.value, senses[0].type, f"what `{entry.name}` senses")
         if key is None or value is None:
             continue
         if key in found:
@@ -278,6 +282,13 @@ def _table(context: Context, node: tree.Table, entry: Entry, senses: tuple[Term,
 def _number(context: Context, line: tree.TableEntry) -> int | None:
     if len(line.key) != 1:
         context.error(Code.BINDING, "a device answers one number", line.span, "one number before the colon")
+        return None
+    if isinstance(line.value, tree.Number) and isinstance(line.key[0], tree.Apply):
+        message, help_ = (
+            "a table says of each number what it means",
+            f"write `{line.value.span.text}: {line.key[0].span.text}`",
+        )
+        context.error(Code.BINDING, message, line.span, "the number comes first", help_)
         return None
     key: Literal | None = context.constants(context, line.key[0], INT)
     return key.value if key is not None and isinstance(key.value, int) else None

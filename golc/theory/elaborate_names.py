@@ -9,12 +9,22 @@ from golc.diagnostics import Code, Edit, Fix, Label
 from golc.syntax import tree
 from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context, Signature
-from golc.theory.declare import BUILTIN_TYPES
+from golc.theory.declare import BUILTIN_TYPES, FUNCTIONS
 from golc.theory.elaborate_types import LARGEST, home, named_type
 from golc.theory.fitting import BROKEN, size, strip_optional
 from golc.theory.scope import Entry, Kind, Scope
+from golc.theory.suggest import closest, did_you_mean
 from golc.theory.terms import Literal, Variable
 from golc.theory.types import BOOL, Collection, Enumeration, Type, show
+
+ASKING = (*FUNCTIONS, "known", "knows", "possible")
+"""Words of the language that stand before an argument."""
+
+VALUES = ("true", "false", "none", "unknown", "waiting")
+"""Words of the language that stand where a value can."""
+
+STATEMENTS = ("skip", "wait")
+"""Words of the language that are a statement alone."""
 
 CALLS = (Kind.FLUENT, Kind.DEFINITION, Kind.STATIC, Kind.EXTERN, Kind.GOAL, Kind.INVARIANT)
 TERMS = (*CALLS, Kind.CONSTANT, Kind.SYMBOL)
@@ -109,8 +119,14 @@ def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding,
     labels = (Label(entry.span, f"{entry.kind.phrase} with {takes} is declared here"),)
     marker = f"{given} argument{'s' * (given != 1)} here" if given else "no arguments here"
     message = f"`{name.text}` takes {takes}, not {given or 'none'}"
-    context.error(Code.ARITY, message, name.span, marker, labels=labels, suspects=[suspect])
+    help_ = f"write `{name.text}({_named(entry)})`" if entry.arity else f"write `{name.text}` alone"
+    context.error(Code.ARITY, message, name.span, marker, help_, labels, [suspect])
     return False
+
+
+def _named(entry: Entry) -> str:
+    """The names of the parameters of a declaration."""
+    return ", ".join(parameter.name.text for parameter in getattr(entry.node, "parameters", ()))
 
 
 def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable[Kind]) -> Entry | None:
@@ -129,10 +145,19 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
     similar = context.names.similar(name.text, kinds, given)
     if similar is None:
         help_ = f"declare it: `action {name.text}`" + (f", or `proc {name.text}: …`" if Kind.PROCEDURE in kinds else "")
+        if Kind.PROCEDURE in kinds and not given:
+            help_ = _as_word(name.text) or help_
         context.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
         return None
     context.misspelt(Code.UNKNOWN_ACTION, name.span, similar)
     return None
+
+
+def _as_word(name: str) -> str | None:
+    """What helps against a name that was probably to be a statement of one word."""
+    if name in ("pass", "noop", "nop", "nil", "nothing"):
+        return "a block that does nothing is `skip`"
+    return did_you_mean(name, STATEMENTS)
 
 
 def _is_formula(context: Context, value: Entry, kinds: Iterable[Kind]) -> bool:
@@ -141,9 +166,16 @@ def _is_formula(context: Context, value: Entry, kinds: Iterable[Kind]) -> bool:
     return signature is not None and signature.type == BOOL
 
 
-def unknown_fluent(context: Context, name: tree.Ident, given: int) -> None:
+def unknown_fluent(context: Context, scope: Scope, name: tree.Ident, given: int) -> None:
     """Report the target of an effect that is declared nowhere."""
     if context.names.assumes(name.text):
+        return
+    if scope.get(name.text) is not None:
+        message, labels = (
+            f"`{name.text}` is a variable, and only fluents change",
+            (Label(scope.locals[name.text].span, "bound here"),),
+        )
+        context.error(Code.MISUSED_NAME, message, name.span, "a fluent is needed here", labels=labels)
         return
     message = f"unknown fluent `{name.text}`"
     similar = context.names.similar(name.text, [Kind.FLUENT], given)
@@ -155,8 +187,9 @@ def unknown_fluent(context: Context, name: tree.Ident, given: int) -> None:
 
 def _no_arguments(context: Context, node: tree.Apply, what: str, entry: Entry | None) -> None:
     labels = (Label(entry.span, "declared here"),) if entry else ()
-    message = f"`{node.name.text}` is {what} and takes no arguments"
-    context.error(Code.ARITY, message, node.name.span, "no arguments here", labels=labels)
+    name = node.name.text
+    message = f"`{name}` is {what} and takes no arguments"
+    context.error(Code.ARITY, message, node.name.span, "no arguments here", f"write `{name}` alone", labels)
 
 
 def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> None:
@@ -181,7 +214,14 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     if similar is None and hint is BROKEN and not given:
         return  # probably a value of the type that is missing, which has been said
-    if similar is None:
+    word = closest(name.text, ASKING if given else VALUES) if similar is None else None
+    if name.text in ASKING:
+        message, help_ = f"`{name.text}` is no value", f"write `{name.text}(…)`, with what it is asked of"
+        context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_)
+    elif word is not None:
+        message, help_ = f"unknown word `{name.text}`", f"did you mean `{word}`?"
+        context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", help_)
+    elif similar is None:
         what, help_ = ("fluent", f"declare it: `fluent {name.text}(…) = …`") if given else ("name", _declare(name.text))
         context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
     else:

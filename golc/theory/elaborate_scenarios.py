@@ -10,7 +10,7 @@ from golc.syntax import tree
 from golc.theory.context import Context
 from golc.theory.elaborate_names import arity_fits, doing
 from golc.theory.elaborate_terms import formula
-from golc.theory.elaborate_values import evaluated, situational
+from golc.theory.elaborate_values import argument, evaluated, situational
 from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN
 from golc.theory.scenarios import (
@@ -217,7 +217,7 @@ class _Scenario:
             self.good = False
             return None
         pairs = zip(node.args, signature.parameters, strict=True)
-        values = [self.context.constants(self.context, arg, parameter.type) for arg, parameter in pairs]
+        values = [argument(self.context, arg, parameter, entry.name) for arg, parameter in pairs]
         if None in values:
             self.good = False
             return None

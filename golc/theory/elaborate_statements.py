@@ -14,7 +14,7 @@ from golc.theory.elaborate_terms import arguments, bind, fitting, formula, messa
 from golc.theory.elaborate_types import parameters
 from golc.theory.elaborate_values import parameter_scope
 from golc.theory.scope import Entry, Kind, Scope
-from golc.theory.terms import Literal
+from golc.theory.terms import Literal, Term
 from golc.theory.theory import Procedure
 from golc.theory.types import BOOL, INT, show
 
@@ -96,7 +96,7 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
     span = node.span
     match node:
         case tree.Star(limit=limit, body=body):
-            most = None if limit is None else fitting(context, scope, limit, INT, "`star at most`")
+            most = None if limit is None else _count(context, scope, limit, "`star at most`")
             return typed.Star(most, block(context, scope, body), span=span)
         case tree.For():
             inner, binders = bind(context, scope, node.binders)
@@ -109,7 +109,7 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
             return typed.Guard(guard, block(context, scope, body), span=span)
         case tree.Search(mode=mode, at_most=at_most, within=within, body=body):
             strategy = typed.Strategy(mode or "first")
-            steps = None if at_most is None else fitting(context, scope, at_most, INT, "`at most … steps`")
+            steps = None if at_most is None else _count(context, scope, at_most, "`at most … steps`")
             seconds = None if within is None else _seconds(context, scope, within)
             return typed.Search(strategy, steps, seconds, block(context, scope, body), span=span)
         case tree.Within(duration=duration, body=body):
@@ -118,6 +118,13 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
         case tree.WaitTime(duration=duration):
             return typed.WaitTime(_seconds(context, scope, duration), span=span)
     raise AssertionError(node)
+
+
+def _count(context: Context, scope: Scope, node: tree.Expr, what: str) -> Term:
+    found = fitting(context, scope, node, INT, what)
+    if isinstance(found, Literal) and isinstance(found.value, int) and found.value < 0:
+        context.error(Code.OUTSIDE_TYPE, f"the number {found.value} is negative", node.span, "at least 0")
+    return found
 
 
 def _seconds(context: Context, scope: Scope, node: tree.Expr) -> typed.Duration:

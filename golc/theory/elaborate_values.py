@@ -59,21 +59,37 @@ def situational(context: Context, definition: str) -> bool:
     return known[definition]
 
 
-def constant_value(context: Context, node: tree.Expr, expected: Type | None) -> Literal | None:
+def constant_value(
+    context: Context, node: tree.Expr, expected: Type | None, parameter: str = "", declared: Span | None = None
+) -> Literal | None:
     """The value of a closed expression, as a literal with the type of the expression."""
-    return _value(context, node, expected, expected)
+    return _value(context, node, expected, expected, parameter, declared)
 
 
-def _value(context: Context, node: tree.Expr, expected: Type | None, hint: Type | None) -> Literal | None:
+def argument(context: Context, node: tree.Expr, parameter: Parameter, owner: str) -> Literal | None:
+    """The value of an argument that has to be known now."""
+    what = f"parameter `{parameter.name}` of `{owner}`"
+    return context.constants(context, node, parameter.type, what, parameter.span)
+
+
+def _value(
+    context: Context,
+    node: tree.Expr,
+    expected: Type | None,
+    hint: Type | None,
+    parameter: str = "",
+    declared: Span | None = None,
+) -> Literal | None:
+    what = parameter or "a constant here"
     found = term(context, Scope(), node, hint)
     if expected is None:
         found = determined(context, found)
-    if expected is not None and not fits(context, found, expected, "a constant here"):
+    if expected is not None and not fits(context, found, expected, what, declared):
         return None
     if not closed_term(context, found, "a constant value"):
         return None
     value = evaluated(context, found)
-    if value is not None and expected is not None and not fits(context, value, expected, "a constant here"):
+    if value is not None and expected is not None and not fits(context, value, expected, what, declared):
         return None
     return value
 
@@ -240,7 +256,7 @@ def _key(context: Context, name: str, entry: tree.TableEntry, types: list[Type])
 
 
 def _entry_value(context: Context, signature: Signature, entry: tree.TableEntry) -> Literal | None:
-    return context.constants(context, entry.value, signature.type)
+    return context.constants(context, entry.value, signature.type, f"static `{signature.entry.name}`")
 
 
 def _covers(context: Context, signature: Signature, node: tree.Table, table: Mapping[tuple[Value, ...], Value]) -> bool:

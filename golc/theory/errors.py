@@ -99,11 +99,11 @@ class ExternError(ProgramError):
 
 
 class NotExecutedError(ExternError):
-    """A Python function would have to be called, and nobody has said that it may: ``why`` names them."""
+    """A Python function, that of the static ``name``, would have to be called, and nobody has said that it may."""
 
-    def __init__(self, diagnostic: Diagnostic, why: str) -> None:
+    def __init__(self, diagnostic: Diagnostic, name: str) -> None:
         super().__init__(diagnostic)
-        self.why = why
+        self.name = name
 
 
 def extern_failed(span: Span, message: str, labels: tuple[Label, ...], help: str | None) -> ExternError:
@@ -113,11 +113,10 @@ def extern_failed(span: Span, message: str, labels: tuple[Label, ...], help: str
 
 def not_executed(span: Span, name: str, why: str) -> NotExecutedError:
     """A value depends on a Python function in a file that is not trusted."""
-    why = f"it depends on `{name}`, and {why}"
-    message = f"this has no value yet: {why}"
+    message = f"this has no value yet: it depends on `{name}`, and {why}"
     help_ = "`--trust` executes it"
     finding = Diagnostic(Code.NOT_EXECUTED, message, span, Severity.NOTE, "a function of Python", help=help_)
-    return NotExecutedError(finding, why)
+    return NotExecutedError(finding, name)
 
 
 class UndecidedError(ProgramError):

@@ -24,7 +24,7 @@ from golc.theory.fitting import (
     strip_optional,
 )
 from golc.theory.terms import Display, Literal, Membership, Operation, Operator, Term
-from golc.theory.types import BOOL, INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value
+from golc.theory.types import BOOL, INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value, show
 
 
 def numeric(context: Context, op: Operator, args: list[Term], span: Span) -> Term:
@@ -65,7 +65,7 @@ def equality(context: Context, op: Operator, left: Term, right: Term, span: Span
     """``=`` or ``!=`` of terms that have some kind of value in common."""
     if not _comparable(left, right):
         message = f"{both(left, right)} can never be equal"
-        help_ = _asks_membership(left, right) or cure(right, left.type)
+        help_ = _asks_membership(left, right) or cure(right, left.type) or _values(left, right) or _values(right, left)
         blamed = suspects(context, left, right)
         context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common", help_, suspects=blamed)
         return broken(span)
@@ -85,6 +85,15 @@ def _asks_membership(left: Term, right: Term) -> str | None:
     if whole is None or not overlap(left.type, whole.element):
         return None
     return f"`{shown(left)} in {shown(right)}` asks whether it is one of them"
+
+
+def _values(found: Term, constant: Term) -> str | None:
+    """What a term of few values can be, where it is compared with a constant that it cannot be."""
+    type_ = strip_optional(found.type)
+    if isinstance(found, Literal) or not isinstance(constant, Literal) or not isinstance(type_, Enumeration):
+        return None
+    values = [show(value) for value in type_.values[:6]]
+    return f"`{shown(found)}` can be {', '.join(values)}{', …' if len(type_.values) > 6 else ''}"
 
 
 def _comparable(left: Term, right: Term) -> bool:

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from textwrap import dedent
 
 import pytest
 
+from golc.cli import invoke
 from golc.diagnostics import Findings, Source, UserError
 from golc.embed.modules import read_theory
 from golc.embed.printing import python_text
@@ -62,13 +66,50 @@ def test_a_file_of_the_project_is_read_as_itself(path: Path, tmp_path: Path) -> 
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_what_golc_finds_is_the_same(path: Path, tmp_path: Path) -> None:
-    for beside in path.parent.glob("*.gl"):
-        (tmp_path / beside.name).write_text(beside.read_text(encoding="utf-8"), encoding="utf-8")
-    (tmp_path / "theory.py").write_text(python_text(parsed(read_source(path))), encoding="utf-8")
-    found, again = (examine(tmp_path / name).findings for name in (path.name, "theory.py"))
+def test_the_findings_and_the_theory_are_the_same(path: Path, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(path.parent, tmp_path / "files", ignore=shutil.ignore_patterns("build")))
+    (folder / "converted.py").write_text(python_text(parsed(read_source(path))), encoding="utf-8")
+    before, after = (examine(folder / name) for name in (path.name, "converted.py"))
 
-    assert sorted(each.code.code for each in again) == sorted(each.code.code for each in found)
+    assert sorted(each.code.code for each in after.findings) == sorted(each.code.code for each in before.findings)
+    if before.theory is not None and after.theory is not None:
+        assert replace(after.theory, source=before.theory.source) == before.theory
+    assert (after.theory is None) == (before.theory is None)
+
+
+BRICKS = [path for path in (ROOT / "examples").glob("*/*.gl") if "\ndevice rcx" in path.read_text(encoding="utf-8")]
+
+
+@pytest.mark.parametrize("path", BRICKS, ids=lambda path: path.stem)
+def test_the_nqc_is_the_same(path: Path, tmp_path: Path) -> None:
+    folder = Path(shutil.copytree(path.parent, tmp_path / "files", ignore=shutil.ignore_patterns("build")))
+    (folder / f"{path.stem}.py").write_text(python_text(parsed(read_source(path))), encoding="utf-8")
+    programs = []
+    for suffix in ("gl", "py"):
+        out = tmp_path / suffix
+        assert invoke(["gen-nqc", "-q", str(folder / f"{path.stem}.{suffix}"), "-o", str(out)]) == 0
+        texts = {each.name: each.read_text(encoding="utf-8") for each in out.glob("*.nq[ch]")}
+        programs.append({name: re.sub(rf"{path.stem}\.(gl|py)|sealed.*", "", text) for name, text in texts.items()})
+
+    assert programs[0] == programs[1]
+    assert programs[0]
+
+
+FENCE = re.compile(r"^```golc.*\n((?:.*\n)*?)```$", re.MULTILINE)
+
+
+def test_the_domains_of_the_manual_are_read_as_themselves(tmp_path: Path) -> None:
+    pages = [*(ROOT / "docs").rglob("*.md"), *(ROOT / "golc" / "codes").glob("*.md"), ROOT / "README.md"]
+    texts = [text for page in pages for text in FENCE.findall(page.read_text(encoding="utf-8")) if "domain " in text]
+    for number, text in enumerate(texts):
+        findings = Findings()
+        file = parse_file(Source("manual", text), findings)
+        if file is not None and not findings.has_errors:
+            path = tmp_path / f"theory{number}.py"
+            path.write_text(python_text(file), encoding="utf-8")
+            assert read_theory(path).file == file
+
+    assert len(texts) > 100
 
 
 def test_ruff_would_not_lay_it_out_otherwise(tmp_path: Path) -> None:

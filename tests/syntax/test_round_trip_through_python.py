@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from dataclasses import fields
 from itertools import count
 from pathlib import Path
 from typing import Any
@@ -23,6 +24,9 @@ FUNCTIONS = ("abs", "len", "first", "rest", "poss", "before")
 NUMBERS = count()
 """Each file has a name of its own."""
 
+NAMES = ("a", "b", "of", "run", "class", "c", "theory")
+"""A few, so that what is used is declared, twice perhaps, and hidden by variables; Python needs some for itself."""
+
 
 @given(st.data())
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
@@ -30,6 +34,8 @@ def test_a_file_is_read_as_itself(
     trees: Any, parsed: Callable[[str], ast.File], tmp_path: Path, data: st.DataObject
 ) -> None:
     file = data.draw(trees.files)
+    number = data.draw(st.integers(1, len(NAMES) + 1))
+    file = file if number > len(NAMES) else _renamed(file, NAMES[:number])
     path = tmp_path / f"theory{next(NUMBERS)}.py"
     path.write_text(_printed(file), encoding="utf-8")
     with warnings.catch_warnings(action="ignore"):  # Python thinks little of `1[0]`
@@ -38,6 +44,19 @@ def test_a_file_is_read_as_itself(
     assert [finding.message for finding in written.findings.diagnostics] == []
     assert written.file == file
     assert python_text(parsed(unparse(written.file))) == python_text(file)
+
+
+def _renamed(part: Any, names: tuple[str, ...]) -> Any:
+    """A tree with these names alone."""
+    match part:
+        case tuple():
+            return tuple(_renamed(each, names) for each in part)
+        case ast.Ident(text=text):
+            return ast.Ident(names[sum(map(ord, text)) % len(names)])
+        case ast.Node():
+            values = {field.name: _renamed(getattr(part, field.name), names) for field in fields(part)}
+            return type(part)(**values)
+    return part
 
 
 def _printed(file: ast.File) -> str:

@@ -78,7 +78,10 @@ def _check(parts: list[Part]) -> None:
         reason = _refusal("\n".join(part.lines))
         if reason is not None and part.declaration is not None:
             message = f"this declaration cannot be written in Python: {reason}"
-            raise UserError(Diagnostic(Code.PYTHON_MEANING, message, part.declaration.span))
+            help_ = "give a part of it a name with `define`, or make a part of the program a procedure"
+            if reason.startswith("duplicate"):
+                help_ = "give each parameter a name of its own"
+            raise UserError(Diagnostic(Code.PYTHON_MEANING, message, part.declaration.span, help=help_))
 
 
 def _refusal(text: str) -> str | None:

@@ -131,7 +131,7 @@ class Declarations:
         variable = self.names.terms.get(fluent)
         return variable if variable in self.names.known and variable is not None else quoted(fluent)
 
-    def decorated(self, place: int, declaration: Named) -> list[str]:
+    def decorated(self, place: int, declaration: Declared) -> list[str]:
         """Annotations, in which Python sees no parameters, and the body, in which it does."""
         names, parameters = self.names, getattr(declaration, "parameters", ())
         type_ = declaration.type if isinstance(declaration, ast.Static | ast.Extern | ast.Fluent) else None
@@ -145,7 +145,7 @@ class Declarations:
             return function_lines(decorator, python, annotated, returns, _body(names, declaration))
 
 
-Named: TypeAlias = (
+Declared: TypeAlias = (
     ast.Const
     | ast.TypeDecl
     | ast.Static
@@ -164,7 +164,7 @@ Named: TypeAlias = (
 """Declarations that have a name."""
 
 
-def _body(names: Names, declaration: Named) -> Iterable[str]:
+def _body(names: Names, declaration: Declared) -> Iterable[str]:
     match declaration:
         case ast.TypeDecl(type=type_):
             return returned(type_doc(names, type_, strings=True))
@@ -189,7 +189,7 @@ def _body(names: Names, declaration: Named) -> Iterable[str]:
     raise TypeError(f"{declaration!r} is no declaration")
 
 
-def _options(declaration: Named) -> Iterator[Doc]:
+def _options(declaration: Declared) -> Iterator[Doc]:
     """What the decorator of a declaration says besides its name."""
     match declaration:
         case ast.Extern(path=path):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterable, Iterator, Set
+from collections.abc import Container, Iterable, Iterator
 from contextlib import contextmanager
 
 from golc.embed.names import python_name
@@ -50,7 +50,7 @@ class Names:
     def __init__(self, file: ast.File) -> None:
         self._taken = {python_name(node.text) for node in descendants(file) if isinstance(node, ast.Ident)}
         self._given: set[str] = set()
-        symbols = {element for node in descendants(file) if isinstance(node, ast.EnumType) for element in node.elements}
+        symbols = _enumerated(file)
         self._clashing = {name for declaration in file.declarations for name in _clashes(declaration, symbols)}
         self._locals: Counter[str] = Counter()
         self.words: set[str] = set()
@@ -67,7 +67,7 @@ class Names:
         }
         self.outside: dict[str, str] = {}
         self.outside_types: dict[str, str] = {}
-        self._declare(file)
+        self._declare(file, symbols)
 
     def word(self, name: str) -> str:
         """A word of ``golc.embed``, which has to be imported."""
@@ -140,7 +140,7 @@ class Names:
         self.known.add(self.outside[name])
         return self.outside[name]
 
-    def _declare(self, file: ast.File) -> None:
+    def _declare(self, file: ast.File, symbols: Iterable[str]) -> None:
         """Terms come first, for they are named most often; what nothing else names comes last."""
         tables: list[tuple[tuple[type[ast.Node], ...], dict[str, str]]] = [
             (TERMS, self.terms),
@@ -150,7 +150,7 @@ class Names:
         ]
         for kinds, table in tables:
             if kinds is PROGRAMS:
-                self._declare_symbols(file)
+                self._declare_symbols(symbols)
             for place, declaration in enumerate(file.declarations):
                 if isinstance(declaration, kinds):
                     name = declaration.name.text  # type: ignore[union-attr]
@@ -165,12 +165,10 @@ class Names:
                 case ast.Device(kind=kind, name=device):
                     self.declared[place] = self._own(kind.text if device is None else device.text, "device")
 
-    def _declare_symbols(self, file: ast.File) -> None:
-        for node in descendants(file):
-            if isinstance(node, ast.EnumType):
-                for element in node.elements:
-                    if isinstance(element, ast.Ident) and element.text not in self.terms | self.types | self.symbols:
-                        self.symbols[element.text] = self._new(element.text, "symbol")
+    def _declare_symbols(self, symbols: Iterable[str]) -> None:
+        for symbol in symbols:
+            if symbol not in self.terms and symbol not in self.types:
+                self.symbols[symbol] = self._new(symbol, "symbol")
 
     def _new(self, name: str, kind: str) -> str:
         natural = python_name(name)
@@ -190,7 +188,14 @@ class Names:
         return found
 
 
-def _clashes(declaration: ast.Declaration, symbols: Set[ast.Ident | ast.Number]) -> set[str]:
+def _enumerated(file: ast.File) -> dict[str, None]:
+    """The symbols of all enumerations, in order."""
+    enumerations = (node for node in descendants(file) if isinstance(node, ast.EnumType))
+    elements = (element for node in enumerations for element in node.elements)
+    return {element.text: None for element in elements if isinstance(element, ast.Ident)}
+
+
+def _clashes(declaration: ast.Declaration, symbols: Container[str]) -> set[str]:
     """The names that are variables of a declaration and also something else in it that Python could not tell apart.
 
     In annotations Python sees no parameters: each is looked at by itself.
@@ -207,7 +212,7 @@ def _clashes(declaration: ast.Declaration, symbols: Set[ast.Ident | ast.Number])
     return found | _clashing(body, symbols)
 
 
-def _clashing(nodes: Iterable[ast.Node], symbols: Set[ast.Ident | ast.Number]) -> set[str]:
+def _clashing(nodes: Iterable[ast.Node], symbols: Container[str]) -> set[str]:
     variables: set[str] = set()
     others: set[str] = set()
     for node in nodes:
@@ -216,7 +221,7 @@ def _clashing(nodes: Iterable[ast.Node], symbols: Set[ast.Ident | ast.Number]) -
                 variables.add(name.text)
             case ast.Pattern(action=action, args=args):
                 others.add(action.text)
-                variables.update(arg.text for arg in args if isinstance(arg, ast.Ident) and arg not in symbols)
+                variables.update(arg.text for arg in args if isinstance(arg, ast.Ident) and arg.text not in symbols)
             case ast.Axiom(parameters=parameters):
                 variables.update(parameter.text for parameter in parameters)
             case ast.TypeName(name=name):

@@ -10,9 +10,9 @@ from typing import TypeVar
 from golc.diagnostics import Diagnostic, Span, counted
 from golc.embed import words
 from golc.embed.errors import Refused, meaningless
-from golc.embed.evaluate import NOT_PYTHON
-from golc.embed.expressions import Expressions
-from golc.embed.refusals import STATEMENTS
+from golc.embed.reading.evaluate import NOT_PYTHON
+from golc.embed.reading.expressions import Expressions
+from golc.embed.reading.refusals import STATEMENTS
 from golc.syntax import tree
 
 T = TypeVar("T")

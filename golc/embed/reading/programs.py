@@ -8,10 +8,10 @@ from typing import Any
 
 from golc.diagnostics import Code, Span
 from golc.embed import words
-from golc.embed.bodies import Bodies
 from golc.embed.errors import meaningless, refused
-from golc.embed.evaluate import NOT_PYTHON
 from golc.embed.names import golc_name, new_name
+from golc.embed.reading.bodies import Bodies
+from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.terms import Named, Term
 from golc.syntax import tree
 

@@ -8,9 +8,9 @@ from types import BuiltinFunctionType
 
 from golc.diagnostics import Code, Label, UserError
 from golc.embed.errors import meaningless, refused
-from golc.embed.functions import Function
 from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
+from golc.embed.reading.functions import Function
 from golc.embed.terms import Named, Term, variable
 from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, enum, interval, optional, symbols, union
 from golc.embed.words import Value, Word

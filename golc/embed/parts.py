@@ -1,0 +1,76 @@
+"""The declarations of a theory in Python in their order, each made when the theory is complete."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TypeAlias
+
+from golc.diagnostics import Findings, Source, Span
+from golc.embed.errors import Refused
+from golc.embed.places import calling_frame
+from golc.embed.reading.depth import check_depth
+from golc.syntax import tree
+from golc.theory.recursion import deep_recursion
+
+Making: TypeAlias = Callable[[], tree.Declaration]
+"""Makes a declaration; raises ``Refused``."""
+
+
+@dataclass(frozen=True)
+class Written:
+    """The tree of a theory, what is wrong with its Python, and the sources, its own file first."""
+
+    file: tree.File
+    findings: Findings
+    sources: tuple[Source, ...]
+
+
+@dataclass
+class Parts:
+    """What a theory is made of: declarations by their keys, and other theories."""
+
+    entries: list[tuple[object, Making | Parts]] = field(default_factory=list)
+
+    def put(self, key: object, making: Making) -> None:
+        """Add a declaration. In a notebook, where cells are run again, it takes the place of one with its key."""
+        if _is_interactive():
+            for place, (known, _) in enumerate(self.entries):
+                if known == key:
+                    self.entries[place] = (key, making)
+                    return
+        self.entries.append((key, making))
+
+    def include(self, other: Parts) -> None:
+        """Add the declarations of another theory, those still to come among them."""
+        self.entries.append((None, other))
+
+    def written(self, domain: tree.Ident, place: Span) -> Written:
+        """The tree of all declarations."""
+        findings = Findings()
+        made: list[tree.Declaration] = []
+        with deep_recursion():
+            for making in self._makings([]):
+                try:
+                    node = making()
+                    check_depth(node)
+                except Refused as error:
+                    findings.diagnostics += error.diagnostics
+                else:
+                    made.append(node)
+        sources = {id(each): each for each in (place.source, *(node.span.source for node in made))}
+        return Written(tree.File(domain, tuple(made), span=place), findings, tuple(sources.values()))
+
+    def _makings(self, seen: list[Parts]) -> Iterator[Making]:
+        seen.append(self)
+        for _, entry in self.entries:
+            if not isinstance(entry, Parts):
+                yield entry
+            elif not any(entry is each for each in seen):
+                yield from entry._makings(seen)
+
+
+def _is_interactive() -> bool:
+    """Whether the code that runs was typed into a session: it comes from no file."""
+    return not Path(calling_frame().f_code.co_filename).is_file()

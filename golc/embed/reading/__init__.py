@@ -1,0 +1,1 @@
+"""Translates functions of Python: from Python's tree to the tree of the language."""

@@ -1,0 +1,2 @@
+def shake_it() -> None:
+    pass

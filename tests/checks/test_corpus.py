@@ -1,0 +1,116 @@
+"""A sound domain with one mistake at a time: each is one finding, with its place, its words and its help.
+
+The files of ``corpus`` beside this one are the domain and lists of mistakes. Below ``== kind: sort of mistake`` stand
+lines of the domain: kept with a space before them, taken out with ``-``, put in with ``+``; ``...`` is whatever lies
+between. Below the line that has the finding stand ``! column+width code message`` and ``! help: …``.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator, Set
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import pytest
+
+from golc.diagnostics import Diagnostic, Severity
+from golc.loading import examine
+
+CORPUS = Path(__file__).with_name("corpus")
+DOMAIN = (CORPUS / "depot.gl").read_text(encoding="utf-8").splitlines()
+
+FOUR = frozenset({"misspelt name", "wrong arity", "wrong type", "missing part"})
+WORDS = frozenset({"misspelt keyword", "missing part"})
+KINDS: dict[str, Set[str]] = {
+    **dict.fromkeys(("const", "type", "static", "fluent", "initially", "define", "action", "exog", "proc"), FOUR),
+    **dict.fromkeys(("poss", "causes", "senses", "cost", "after", "invariant", "goal", "prune", "prune after"), FOUR),
+    **dict.fromkeys(("given", "run", "scenario on", "until", "expect"), FOUR),
+    **dict.fromkeys(("call", "test", "if", "elif", "while", "pick", "pick in", "star", "for", "for in", "let"), FOUR),
+    **dict.fromkeys(("on", "on some", "guard", "search", "wait until", "within", "say", "abort"), FOUR),
+    **dict.fromkeys(("by prompt", "timeout", "set"), FOUR),
+    # Their keys are counted, and their parameters named, otherwise.
+    **dict.fromkeys(("static table", "sensing table"), FOUR - {"wrong arity"}),
+    **dict.fromkeys(("axiom", "by call", "binding with parameters", "report", "host"), FOUR - {"wrong type"}),
+    "self": {"misspelt name", "wrong arity"},
+    "import": {"misspelt name", "misspelt keyword", "missing part"},
+    # These have nothing but their words and blocks.
+    **dict.fromkeys(("domain", "otherwise", "scenario", "device"), WORDS),
+    **dict.fromkeys(("choose", "together", "prefer", "interrupts"), WORDS),
+    **dict.fromkeys(("skip", "wait"), frozenset({"misspelt name"})),
+    "by start": {"misspelt keyword", "wrong behaviour"},
+    "notation": {"other notation", "out of place", "indentation", "missing part"},
+    "reserved word": {"reserved word"},
+}
+"""What may be wrong in every kind of declaration, line and statement."""
+
+
+@dataclass
+class Mistake:
+    """The domain with a mistake, and what is said of it."""
+
+    title: str
+    text: list[str] = field(default_factory=list)
+    said: list[str] = field(default_factory=list)
+
+
+def mistakes() -> Iterator[Mistake]:
+    for path in sorted(CORPUS.glob("*.slips")):
+        for block in path.read_text(encoding="utf-8").removeprefix("== ").split("\n== "):
+            title, *lines = block.rstrip("\n").split("\n")
+            yield changed(title, lines)
+
+
+def changed(title: str, lines: list[str]) -> Mistake:
+    mistake, read = Mistake(title), 0
+    parts = "\n".join(line for line in lines if line).split("\n...\n")
+    for part in parts:
+        marked = part.split("\n")
+        old = [line[1:] for line in marked if line[0] in " -"]
+        places = [place for place in range(len(DOMAIN)) if DOMAIN[place : place + len(old)] == old]
+        assert len(places) == 1 and places[0] >= read, (title, old)
+        mistake.text += DOMAIN[read : places[0]]
+        for line in marked:
+            if line[0] in " +":
+                mistake.text.append(line[1:])
+            elif line[0] == "!":
+                mistake.said.append(line[2:] if line.startswith("! help") else f"{len(mistake.text)}:{line[2:]}")
+        read = places[0] + len(old)
+    mistake.text += DOMAIN[read:]
+    return mistake
+
+
+def said(finding: Diagnostic) -> list[str]:
+    span = finding.span
+    severity = "" if finding.severity is Severity.ERROR else f" {finding.severity.value}"
+    place = f"{span.line}:{span.column}+{span.end - span.start}"
+    head = f"{place} {finding.code.code}{severity} {finding.message}"
+    return [head] if finding.help is None else [head, f"help: {finding.help}"]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return Path(shutil.copytree(CORPUS, tmp_path_factory.mktemp("corpus") / "depot"))
+
+
+def test_the_domain_itself_has_no_finding() -> None:
+    assert examine(CORPUS / "depot.gl", proofs=True).findings == ()
+
+
+@pytest.mark.parametrize("mistake", [*mistakes()], ids=lambda mistake: mistake.title.replace(" ", "-"))
+def test_a_mistake_is_one_finding(mistake: Mistake, folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    Path("depot.gl").write_text("\n".join(mistake.text) + "\n", encoding="utf-8")
+    findings = examine("depot.gl", proofs=True).findings
+    assert [line for finding in findings for line in said(finding)] == mistake.said
+    assert len(findings) == 1
+
+
+def test_every_kind_of_line_has_every_sort_of_mistake() -> None:
+    found: dict[str, set[str]] = {}
+    for mistake in mistakes():
+        kind, sort = mistake.title.rstrip(" 0123456789").split(": ")
+        found.setdefault(kind, set()).add(sort)
+    assert {
+        kind: needed - found.get(kind, set()) for kind, needed in KINDS.items() if needed - found.get(kind, set())
+    } == {}
