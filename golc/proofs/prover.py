@@ -137,7 +137,7 @@ class Prover:
         small: bool,
         all_: bool = False,
     ) -> Witness:
-        """A witness of those in some cases; if it is to be ``small``, the smallest, or of all, if these are all cases."""
+        """A witness of those in some cases; a ``small`` one is the smallest, or that of all, if these are all cases."""
         first = self.asking.layout.size
         if small and all_ and not any(case.open for case, _ in cases):
             found = smallest([leaf for _, leaf in cases], domains, first)

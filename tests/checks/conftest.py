@@ -146,7 +146,7 @@ def write_theory() -> Callable[[int], str]:
 
 @pytest.fixture(scope="session")
 def shapes() -> Mapping[str, Callable[[int], str]]:
-    """Domains of about so many lines with a great deal of one thing, by what it is; the benchmarks measure them, too."""
+    """Domains of about so many lines with a great deal of one thing, by what it is, as the benchmarks measure them."""
     found: Mapping[str, Callable[[int], str]] = runpy.run_path(str(Path(__file__).parents[1] / "bench/large.py"))[
         "SHAPES"
     ]
