@@ -92,8 +92,9 @@ class Obligations:
         return "in every state that can be reached" if self._where() else "in every situation"
 
     def _where(self) -> tuple[str, ...]:
-        scope = self.prover.scope if isinstance(self.prover, Among) else None
-        return (str(scope),) if scope is not None and scope.whole else ()
+        """Which states were gone through for what the last question found in none of them."""
+        scope = self.prover.nowhere if isinstance(self.prover, Among) else None
+        return () if scope is None else (str(scope),)
 
     def _example(self, action: Action, witness: Witness) -> tuple[str, ...]:
         """A witness in words: the situation, and the action with its arguments; how the situation is reached."""
