@@ -26,6 +26,7 @@ from golc.syntax import tree
 MISSING: Any = object()
 
 WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
+"""The kinds of declarations whose functions have none."""
 
 SPACES = {"action": "action", "exogenous action": "action", "procedure": "action", "scenario": "scenario"}
 """The namespaces of the kinds of declarations that do not share that of terms."""
