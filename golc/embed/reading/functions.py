@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 import builtins
 import inspect
+import re
+import reprlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
@@ -18,7 +20,10 @@ from golc.embed.places import caller, calling_frame, line_span, offset, source_o
 from golc.theory.suggest import did_you_mean
 
 ABSENT = object()
+_SHORT = reprlib.Repr()
+_SHORT.maxother = 100
 MUTABLE = (list, dict, set, bytearray)
+_DEFINED = re.compile(r"def[\s\\]+(\w+)")
 
 
 @dataclass(frozen=True)
@@ -44,9 +49,10 @@ class Function:
     @property
     def name_span(self) -> Span:
         """Where the name is written, behind ``def``."""
-        start = offset(self.source, self.node.lineno, self.node.col_offset)
-        start = self.source.text.index(self.node.name, start + len("def"))
-        return Span(self.source, start, start + len(self.node.name))
+        # Python's tree has letters of a name in their normal form, the source as they were typed.
+        found = _DEFINED.match(self.source.text, offset(self.source, self.node.lineno, self.node.col_offset))
+        assert found is not None, "a definition"
+        return Span(self.source, *found.span(1))
 
     @property
     def span(self) -> Span:
@@ -109,7 +115,7 @@ class Function:
     def _changed(self, name: ast.Name, then: object, now: object) -> Exception:
         return refused(
             Code.PYTHON_CHANGED,
-            f"`{name.id}` was {then!r} when the function was declared and is {now!r} now",
+            f"`{name.id}` was {_shown(then)} when the function was declared and is {_shown(now)} now",
             self.place(name),
             f"give it to the function as a default: `def {self.node.name}(…, {name.id}={name.id})`",
             (Label(self.name_span, "the function is translated when the theory is complete"),),
@@ -119,6 +125,14 @@ class Function:
 def _alike(then: object, now: object) -> bool:
     """Whether one constant took the place of an equal one."""
     return type(then) is type(now) and isinstance(then, (int, str, float, bool, tuple)) and then == now
+
+
+def _shown(value: object) -> str:
+    """A Python value for a message; of one that cannot be shown its type."""
+    try:
+        return _SHORT.repr(value)
+    except Exception:
+        return f"a `{type(value).__name__}`"
 
 
 def _says_nothing(node: ast.stmt) -> bool:
