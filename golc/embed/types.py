@@ -72,7 +72,7 @@ class TypeHandle(TypeForm):
         return {value.name: value for value in chain.from_iterable(pieces) if isinstance(value, Named)}
 
     def __getattr__(self, name: str) -> Named:
-        if not name.startswith("_") and (symbol := self.symbols().get(name)):
+        if not name.startswith("_") and (symbol := self.symbols().get(name)) is not None:
             return symbol
         raise AttributeError(f"the type `{self.name}` has no symbol `{name}`", name=name, obj=self)
 

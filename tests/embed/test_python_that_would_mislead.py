@@ -114,7 +114,8 @@ def test_it_is_refused(wrong_with: Wrong, code: str, place: str, message: str) -
 def test_a_loop_of_python_hides_a_parameter_with_its_name(text_of: Text) -> None:
     text = text_of(
         THEORY
-        + 'PAIRS = (("a", hall), ("b", attic))\n@theory.proc\ndef p(r: room):\n    for _, r in PAIRS:\n        say(f"{r}")\n'
+        + 'PAIRS = (("a", hall), ("b", attic))\n'
+        + '@theory.proc\ndef p(r: room):\n    for _, r in PAIRS:\n        say(f"{r}")\n'
     )
 
     assert text.endswith('proc p(r: room):\n    say "{hall}"\n    say "{attic}"\n')
@@ -123,7 +124,8 @@ def test_a_loop_of_python_hides_a_parameter_with_its_name(text_of: Text) -> None
 def test_the_order_of_a_set_of_python_is_the_same_each_time(text_of: Text) -> None:
     text = text_of(
         THEORY
-        + 'S = {(hall, 2), (hall, 1), (attic, 3)}\n@theory.proc\ndef p():\n    for r, n in S:\n        say(f"{r} {n}")\n'
+        + "S = {(hall, 2), (hall, 1), (attic, 3)}\n"
+        + '@theory.proc\ndef p():\n    for r, n in S:\n        say(f"{r} {n}")\n'
     )
 
     assert text.endswith('    say "{attic} {3}"\n    say "{hall} {1}"\n    say "{hall} {2}"\n')

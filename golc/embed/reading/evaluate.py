@@ -11,7 +11,7 @@ from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
 from golc.embed.reading.functions import Function
-from golc.embed.terms import Named, Term, translating, variable
+from golc.embed.terms import Term, translating, variable
 from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, enum, interval, optional, symbols, union
 from golc.embed.words import Value, Word
 from golc.theory.python_file import failure
