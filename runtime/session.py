@@ -29,7 +29,7 @@ from golc.runtime.observers.journal import Journal
 from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style, Trace
 from golc.runtime.observers.whereabouts import Whereabouts
 from golc.runtime.signals import ending_on_signals
-from golc.runtime.sources.exogenous import COMMANDS, Terminal, Timetable, from_operator
+from golc.runtime.sources.exogenous import COMMANDS, DEEDS, Hands, Terminal, Timetable, from_operator
 from golc.runtime.sources.listener import Listener
 from golc.runtime.sources.polling import Poller
 from golc.runtime.sources.schedule import Schedule, parse_schedule, read_schedule
@@ -252,12 +252,25 @@ class _Session:
             reported = {entry.action for actions in self.maps.values() for entry in actions.entries if entry.exogenous}
             found.append(Poller(polled, frozenset(reported), self.inbox, clock))
         if self.stdin is not None:
-            found.append(Terminal(self.theory, self.inbox, self.desk, self.reply, self.stdin))
+            found.append(Terminal(self.theory, self.inbox, self.desk, self.reply, self.stdin, self.hands))
         if self.settings.listen is not None:
             listener = Listener(self.theory, self.inbox, *self.settings.listen)
             self.say("listening on {}:{}".format(*listener.address))
             found.append(listener)
         return found
+
+    @property
+    def hands(self) -> Hands | None:
+        """Those of the operator at the robot, if there is a world in which it is."""
+        robot = self.robot
+        if robot is None:
+            return None
+
+        def act(text: str, where: Span, findings: Findings) -> None:
+            if told := robot.act(text, where, findings):
+                self.say(f"you: {told}")
+
+        return act
 
     def policy(self, clock: Clock) -> Policy:
         settings = self.settings
@@ -292,7 +305,8 @@ class _Session:
         if self.interactive:
             event = one_of([action for action in self.theory.actions.values() if from_operator(self.theory, action)])
             reports = "" if event is None else f"an exogenous action such as {event}, or "
-            self.say(f"type {reports}one of " + ", ".join(f"!{name}" for name in COMMANDS))
+            names = [*COMMANDS, *([] if self.robot is None else DEEDS)]
+            self.say(f"type {reports}one of " + ", ".join(f"!{name}" for name in names))
 
     def say(self, text: str) -> None:
         """Something good to know."""

@@ -12,7 +12,7 @@ from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from pathlib import Path
 
-from golc.diagnostics import DeviceError
+from golc.diagnostics import DeviceError, Findings, Span
 from golc.nqc.actionmap import ActionMap
 from golc.nqc.build import build
 from golc.nqc.toolchain import Target, find_nqc
@@ -87,6 +87,12 @@ class RobotInWorld:
         """Where the robot is now."""
         with self.transport.lock:
             return self._world.whereabouts
+
+    def act(self, text: str, where: Span, findings: Findings) -> str:
+        """Somebody at the robot does something now; what became of it, nothing if the words are wrong."""
+        with self.transport.lock:
+            self.transport.now()
+            return self._world.act(text, where, findings)
 
     def drawn(self, path: Path) -> AbstractContextManager[None]:
         """Draw the world from above into a file in the end, with the way of the robot until then, as SVG.

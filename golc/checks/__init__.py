@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from golc.checks.beginning import initial_worlds, leaves_open
+from golc.checks.beginning import initial_worlds, open_at_first
 from golc.checks.devices import check_devices
 from golc.checks.initial import check_initial
 from golc.checks.invariants import check_invariants
@@ -20,8 +20,8 @@ def check(theory: BasicActionTheory, file: tree.File) -> list[Diagnostic]:
     check_names(theory, file, findings)
     check_initial(theory, findings)
     if not findings.has_errors:  # an initial value that cannot be computed has been said
-        beginning = initial_worlds(theory, findings) if leaves_open(theory) else None
-        if beginning is not None or not leaves_open(theory):
+        beginning = initial_worlds(theory, findings) if open_at_first(theory) else None
+        if beginning is not None or not open_at_first(theory):
             check_invariants(theory, beginning, findings)
         if beginning is not None:
             check_knowledge(theory, beginning, findings)

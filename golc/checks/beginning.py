@@ -45,7 +45,7 @@ class Beginning:
         return ", ".join(shown[:5]) + (", …" if len(shown) > 5 else "")
 
 
-def leaves_open(theory: BasicActionTheory) -> bool:
+def open_at_first(theory: BasicActionTheory) -> bool:
     """Whether several worlds may be possible at first, or none."""
     return bool(theory.initially) or any(isinstance(fluent.initial, Choice) for fluent in theory.fluents.values())
 

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-import itertools
-
 from golc.checks.obligations import Obligations
+from golc.checks.pairs import pairs
 from golc.diagnostics import Code, Label
-from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Witness
-from golc.situation.dynamics import is_injective
+from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, Undecided, Witness
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Binder, Choice, Operation, Operator
 from golc.theory.theory import Action, Effect, Parameter
 from golc.theory.types import BOOL
+
+MOST_PAIRS = 5_000
+"""How many pairs of effects of one action are compared."""
 
 
 def check_effects(obligations: Obligations) -> None:
@@ -21,9 +22,7 @@ def check_effects(obligations: Obligations) -> None:
             continue
         for number in range(len(action.effects)):
             _check_effect(action, number, obligations)
-        for first, second in itertools.combinations_with_replacement(action.effects, 2):
-            if first.fluent == second.fluent and not (first is second and is_injective(first)):
-                _check_conflict(action, first, second, obligations)
+        _check_conflicts(action, obligations)
         for name in obligations.theory.invariants:
             _check_invariant(action, name, obligations)
 
@@ -70,6 +69,18 @@ def _report(action: Action, witness: Witness, obligations: Obligations) -> None:
     found = witness.error.diagnostic
     message = f"`{action.name}` can go wrong: {found.message}"
     obligations.error(Code.EFFECT_FAILS, message, found.span, found.marker, action, witness, found.labels)
+
+
+def _check_conflicts(action: Action, obligations: Obligations) -> None:
+    """No two effects give one ground fluent two values."""
+    met = pairs(action.effects, len(action.parameters), MOST_PAIRS)
+    if len(met) > MOST_PAIRS:
+        obligations.asked += 1
+        why = Undecided(f"more than {MOST_PAIRS:,} pairs of them would have to be compared")
+        obligations.not_decided(why, f"whether all effects of `{action.name}` agree", action.span)
+        return
+    for one, two in met:
+        _check_conflict(action, one, two, obligations)
 
 
 def _check_conflict(action: Action, first: Effect, second: Effect, obligations: Obligations) -> None:

@@ -10,16 +10,21 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
+from golc.checks.connected import Connected
 from golc.checks.obligations import Obligations
+from golc.checks.performed import Performed
 from golc.diagnostics import Code, Label, Span
+from golc.proofs.among import Among
 from golc.proofs.questions import Asked, Question, Step
 from golc.theory import statements as st
-from golc.theory.calls import substatements
 from golc.theory.reading import fluents_read
 from golc.theory.statements import Statement
 from golc.theory.terms import Binder, Literal, Operation, Operator, PossTerm, Term
 from golc.theory.theory import Parameter
 from golc.theory.types import BOOL
+
+MOST_KNOWN = 50
+"""How many formulas are remembered at a place, the latest; each is looked at wherever something is asked."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +46,7 @@ class Place:
 
     def knowing(self, *more: Asked) -> Place:
         """The same place, with more that holds."""
-        return replace(self, known=tuple(dict.fromkeys((*self.known, *more))))
+        return replace(self, known=tuple(dict.fromkeys((*self.known, *more)))[-MOST_KNOWN:])
 
     def inside(self, binders: Iterable[Binder]) -> Place:
         """The place with further variables, of which those that run over a collection are elements of it."""
@@ -65,7 +70,13 @@ class Flow:
             action.name: frozenset(effect.fluent for effect in action.effects) | fluents_read(theory, action.senses)
             for action in theory.actions.values()
         }
-        self._performed: dict[str, frozenset[str]] = {}
+        self._touching: dict[str, set[str]] = {}
+        """The actions that touch a fluent."""
+        for name, touched in self._touched.items():
+            for fluent in touched:
+                self._touching.setdefault(fluent, set()).add(name)
+        self._performed = Performed(theory.procedures)
+        self._connected = Connected(theory, some=isinstance(obligations.prover, Among))
         self._exogenous = frozenset(action.name for action in theory.actions.values() if action.exogenous)
 
     def check(self) -> None:
@@ -116,7 +127,7 @@ class Flow:
                 self._walk(body, replace(place, guards=(*place.guards, held)).knowing(held))
                 return self._after_all(body, place)
             case st.TogetherStar(body=body):
-                others = place.others | self._actions(body)
+                others = place.others | self._performed.by(body)
                 return self._repeated(body, replace(place, others=others), place)
             case st.Star(body=body):
                 return self._repeated(body, place, place)
@@ -136,7 +147,7 @@ class Flow:
         action = self._theory.actions[statement.action]
         possible = place.asked(PossTerm(statement.action, statement.args, type=BOOL, span=statement.span))
         if action.preconditions and action.name not in self._obligations.never_possible:
-            here = (*place.guards, *place.known)
+            here = self._connected.known((*place.guards, *place.known), (possible,))
             what = f"whether `{statement.span.text}` is ever possible here"
             if here and self._never(place, (*here, possible), what, statement.span):
                 culprits = [known for known in here if self._never(place, (known, possible), "", statement.span)]
@@ -163,36 +174,33 @@ class Flow:
         self._constant(condition, place, "this condition", true=False)
         self._walk(statement.body, place.knowing(place.asked(condition)))
         reads = fluents_read(self._theory, [condition])
-        changing = self._actions(statement.body) | place.others
+        changing = self._performed.by(statement.body) | place.others
         if reads and not any(self._touched[name] & reads for name in changing):
             message = "nothing in this loop changes its condition, so that it never ends once it has begun"
             self._obligations.warning(Code.ENDLESS_LOOP, message, condition.span, "stays as it is")
         return place.knowing(place.asked(condition, false=True))
 
     def _concurrent(self, branches: Sequence[Statement], place: Place) -> Place:
-        for number, branch in enumerate(branches):
-            rest = [self._actions(other) for index, other in enumerate(branches) if index != number]
-            among = replace(place, others=place.others.union(*rest))
-            self._walk(branch, self._later(among))
-        return self._later(place, place.others.union(*map(self._actions, branches)))
+        for branch, rest in zip(branches, self._performed.by_others(branches), strict=True):
+            self._walk(branch, self._later(replace(place, others=place.others | rest)))
+        return self._later(place, place.others.union(*map(self._performed.by, branches)))
 
     def _interrupts(self, statement: st.Interrupts, place: Place) -> Place:
-        every = frozenset[str]().union(*[self._actions(handler.body) for handler in statement.handlers])
-        place = self._later(place, place.others | every)
-        for handler in statement.handlers:
+        place = self._later(place, place.others | self._performed.by(statement))
+        rests = self._performed.by_others([handler.body for handler in statement.handlers])
+        for handler, rest in zip(statement.handlers, rests, strict=True):
             inner = place.inside(handler.binders)
             self._fires(handler, inner)
-            rest = [self._actions(other.body) for other in statement.handlers if other is not handler]
-            among = replace(inner, others=place.others.union(*rest))
+            among = replace(inner, others=place.others | rest)
             self._walk(handler.body, among.knowing(inner.asked(handler.condition)))
         return place
 
     def _fires(self, handler: st.Interrupt, place: Place) -> None:
         condition = handler.condition
+        fires = place.asked(condition)
+        known = self._connected.known(place.known, (fires,))
         what = "whether this interrupt can ever fire"
-        if not isinstance(condition, Literal) and self._never(
-            place, (*place.known, place.asked(condition)), what, condition.span
-        ):
+        if not isinstance(condition, Literal) and self._never(place, (*known, fires), what, condition.span):
             message = f"this interrupt can never fire: its condition is false {self._obligations.everywhere}"
             self._obligations.warning(Code.NEVER_FIRES, message, condition.span, "never true")
 
@@ -202,7 +210,7 @@ class Flow:
         if not fluents_read(self._theory, [condition]):
             return
         question = f"whether {what} is always false"
-        known = (*place.guards, *place.known)
+        known = self._connected.known((*place.guards, *place.known), (place.asked(condition),))
         if self._never(place, (*known, place.asked(condition)), question, condition.span):
             self._obligations.warning(Code.CONSTANT, f"{what} is always false here", condition.span, "never true")
         elif only is not False and true:
@@ -219,30 +227,30 @@ class Flow:
         """Other actions may have happened meanwhile, as often as they are possible."""
         others = place.others if others is None else others
         while True:
-            touched = frozenset[str]().union(*[self._touched[name] for name in others if self._may_happen(name, place)])
+            reads = frozenset[str]().union(*map(self._connected.fluents, place.known))
+            near = frozenset[str]().union(*[self._touching.get(fluent, ()) for fluent in reads]) & others
+            touched = frozenset[str]().union(*[self._touched[name] for name in near if self._may_happen(name, place)])
             kept = self._without(place, touched)
             if kept.known == place.known:
                 return kept
             place = kept
 
     def _may_happen(self, name: str, place: Place) -> bool:
-        reads = fluents_read(self._theory, [known.term for known in place.known])
-        if not self._touched[name] & reads:
-            return False
         action = self._theory.actions[name]
         first = len(place.variables)
         env = tuple(range(first, first + len(action.parameters)))
-        steps = (*place.known, *(Asked(condition, env) for condition in action.preconditions))
+        possible = [Asked(condition, env) for condition in action.preconditions]
+        steps = (*self._connected.known(place.known, possible), *possible)
         variables = (*place.variables, *action.parameters)
         return not self._obligations.is_impossible(Question(variables, steps), "", action.span)
 
     def _without(self, place: Place, touched: frozenset[str]) -> Place:
-        kept = [known for known in place.known if not fluents_read(self._theory, [known.term]) & touched]
+        kept = [known for known in place.known if touched.isdisjoint(self._connected.fluents(known))]
         return replace(place, known=tuple(kept))
 
     def _after_all(self, statement: Statement, place: Place) -> Place:
         """What remains known whatever of a statement has been done, however often."""
-        touched = frozenset[str]().union(*[self._touched[name] for name in self._actions(statement)])
+        touched = frozenset[str]().union(*[self._touched[name] for name in self._performed.by(statement)])
         return self._later(self._without(place, touched))
 
     def _repeated(self, body: Statement, inside: Place, place: Place) -> Place:
@@ -252,21 +260,6 @@ class Flow:
     def _common(self, place: Place, ends: Sequence[Place]) -> Place:
         shared = [known for known in ends[0].known if all(known in end.known for end in ends)]
         return replace(place, known=tuple(shared))
-
-    def _actions(self, statement: Statement) -> frozenset[str]:
-        """The primitive actions that a statement may perform, also in procedures."""
-        found: set[str] = set()
-        seen: set[str] = set()
-        stack = [statement]
-        while stack:
-            for part in substatements(stack.pop()):
-                match part:
-                    case st.Perform(action=name):
-                        found.add(name)
-                    case st.Invoke(procedure=name) if name not in seen:
-                        seen.add(name)
-                        stack.append(self._theory.procedures[name].body)
-        return frozenset(found)
 
 
 def _where(place: Place, where: Term | None) -> Place:

@@ -33,7 +33,7 @@ class Obligations:
         a finding. ``what`` completes "… is not decided"."""
         answer = self._answer(question, what, span, small=True)
         if isinstance(answer, Witness) and not answer.certain:
-            self._not_decided(Undecided("it depends on what the agent knows then"), what, span)
+            self.not_decided(Undecided("it depends on what the agent knows then"), what, span)
             return None
         return answer if isinstance(answer, Witness) else None
 
@@ -45,10 +45,11 @@ class Obligations:
         self.asked += 1
         answer = self.prover.answer(question, small)
         if isinstance(answer, Undecided) and what:
-            self._not_decided(answer, what, span)
+            self.not_decided(answer, what, span)
         return answer
 
-    def _not_decided(self, why: Undecided, what: str, span: Span) -> None:
+    def not_decided(self, why: Undecided, what: str, span: Span) -> None:
+        """Report that nobody knows, and why."""
         self.undecided += 1
         if why.function is not None:
             self._not_executed(self.theory.statics[why.function])
@@ -91,8 +92,9 @@ class Obligations:
         return "in every state that can be reached" if self._where() else "in every situation"
 
     def _where(self) -> tuple[str, ...]:
-        scope = self.prover.scope if isinstance(self.prover, Among) else None
-        return (str(scope),) if scope is not None and scope.whole else ()
+        """Which states were gone through for what the last question found in none of them."""
+        scope = self.prover.nowhere if isinstance(self.prover, Among) else None
+        return () if scope is None else (str(scope),)
 
     def _example(self, action: Action, witness: Witness) -> tuple[str, ...]:
         """A witness in words: the situation, and the action with its arguments; how the situation is reached."""

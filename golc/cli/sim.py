@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import contextlib
 import itertools
+import os
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -218,6 +220,7 @@ def command(
         console.out(port.description)
         if world is not None:
             stack.callback(_tell_place, world, console)
+            port = _attended(port, world, console)
         if file is None:
             console.note("the brick is empty: nqc can send it a program")
         serve(line, port, stops, speed, rest)
@@ -248,6 +251,32 @@ def _drawing(world: World, picture: Path) -> contextlib.AbstractContextManager[N
     from golc.runtime.rcxsim.world.picture import draw, drawing
 
     return drawing(picture, lambda: draw(world.scene, world.record, world.pose))
+
+
+def _attended(port: Port, world: World, console: Console) -> Port:
+    """The port of a brick at which somebody may type what people do."""
+    from golc.runtime.rcxsim.attended import AttendedPort
+
+    try:
+        descriptor = sys.stdin.fileno()
+    except (AttributeError, OSError, ValueError):
+        return port
+    if os.isatty(descriptor):
+        console.note("type what you do at the robot, such as `press run`, `lift`, `put back`")
+    return AttendedPort(port, descriptor, lambda text: _do(text, world, console))
+
+
+def _do(text: str, world: World, console: Console) -> None:
+    """Do what somebody has typed, or say why not."""
+    from golc.diagnostics import Findings, Source, Span
+    from golc.rendering import render
+
+    findings = Findings()
+    told = world.act(text, Span(Source("<stdin>", text), 0, len(text)), findings)
+    for finding in findings.diagnostics:
+        console.err(render(finding, color=console.colored(sys.stderr)))
+    if told:
+        console.note(f"you: {told}")
 
 
 def _tell_place(world: World, console: Console) -> None:

@@ -25,6 +25,9 @@ from golc.syntax import tree
 
 MISSING: Any = object()
 
+WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
+"""The kinds of declarations whose functions have none."""
+
 SPACES = {"action": "action", "exogenous action": "action", "procedure": "action", "scenario": "scenario"}
 """The namespaces of the kinds of declarations that do not share that of terms."""
 
@@ -312,6 +315,10 @@ class Theory:
             meant = translated(function)
             text = meant.name if name is None else name
             ident = new_name(text, meant.name_span)
+            if kind in WITHOUT_PARAMETERS and meant.parameters():
+                arg = meant.parameters()[0]
+                help_ = "write `… for n in station` in it; with a default it is a constant of Python"
+                raise meaningless(f"`{arg.arg}` is a parameter, and no {kind} has any", meant.place(arg), help_)
         except Refused as error:
             return self._broken(error, function, kind, name, space)
 

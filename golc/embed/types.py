@@ -168,8 +168,8 @@ def elsewhere(name: tree.Ident) -> TypeHandle:
 
 
 def _one_or_all(things: Iterable[object]) -> object:
-    one, *others = found = tuple(things)
-    return found if others else one
+    found = tuple(things)
+    return found[0] if len(found) == 1 else found
 
 
 def joined(parts: tuple[object, ...], span: Span) -> TypeForm:

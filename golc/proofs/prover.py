@@ -86,8 +86,8 @@ class Prover:
         if not all(case.whole for case, _ in found):
             undecided = undecided or Undecided("a value is asked for that cannot be enumerated")
         if any(leaf.is_witness for _, leaf in found):
-            return self._witness(question, domains, found, small and undecided is None)
-        return undecided and self._solved(question, domains, undecided)
+            return self._witness(question, domains, found, small, all_=undecided is None)
+        return undecided and self._solved(question, domains, undecided, small)
 
     def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, Leaf]]:
         """Whether what is asked is so, case by case; of many cases some by chance before the rest in order."""
@@ -105,14 +105,16 @@ class Prover:
         finally:
             self._looks -= allowed - budget.left
 
-    def _solved(self, question: Question, domains: list[Domain], why: Undecided) -> Witness | Undecided | None:
+    def _solved(
+        self, question: Question, domains: list[Domain], why: Undecided, small: bool
+    ) -> Witness | Undecided | None:
         """What a solver answers, if there is one; a witness of its is tried out."""
         try:
             from golc.proofs.solver import solve
         except ImportError:
             return replace(why, help="install `golc[smt]`, which brings a solver")
         try:
-            found = solve(self.theory, question)
+            found = solve(self.theory, question, small)
         except NotDecidedError as error:
             return Undecided(f"{why.reason}; {error}")
         if found is None:
@@ -124,23 +126,28 @@ class Prover:
         try:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
                 if leaf.is_witness:
-                    return self._witness(question, domains, [(case, leaf)])
+                    return self._witness(question, domains, [(case, leaf)], small)
         except NotDecidedError as error:
             return Undecided(f"{why.reason}; {error}")
         return Undecided(f"{why.reason}; what the solver says is not confirmed")
 
     def _witness(
-        self, question: Question, domains: Sequence[Domain], cases: Sequence[tuple[Case, Leaf]], all_: bool = False
+        self,
+        question: Question,
+        domains: Sequence[Domain],
+        cases: Sequence[tuple[Case, Leaf]],
+        small: bool,
+        all_: bool = False,
     ) -> Witness:
-        """The smallest witness of those in some cases, or of all, if these are all cases."""
+        """A witness of those in some cases; a ``small`` one is the smallest, or that of all, if these are all cases."""
         first = self.asking.layout.size
-        if all_ and not any(case.open for case, _ in cases):
+        if small and all_ and not any(case.open for case, _ in cases):
             found = smallest([leaf for _, leaf in cases], domains, first)
             if found is not None:
                 return self._fixed(question, domains, found, {*found})
         case, leaf = min([pair for pair in cases if pair[1].is_witness], key=lambda pair: _worth(pair[0], domains))
         values = case.values()
-        matter = None if case.open else reduced(self.asking, question, values, leaf.answer)
+        matter = None if case.open or not small else reduced(self.asking, question, values, leaf.answer)
         return replace(self._fixed(question, domains, values, matter), certain=case.guesses < 2)
 
     def _fixed(

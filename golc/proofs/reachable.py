@@ -40,16 +40,20 @@ MOST_EFFORT = 200_000
 FEW = (0, 1, 2, -1)
 """Arguments that are tried where all integers cannot be."""
 
-SECONDS = 4.0
+SECONDS = 3.0
 """How long to go on finding states."""
 
 
 @dataclass(frozen=True)
 class Scope:
-    """How many states were gone through; why these are not all, if they are not."""
+    """How many states were gone through; why these are not all, if they are not.
+
+    ``narrowed``: how many questions were answered with regard to what can be reached.
+    """
 
     states: int
     reason: str | None = None
+    narrowed: int = 0
 
     @property
     def whole(self) -> bool:
@@ -59,7 +63,8 @@ class Scope:
     def __str__(self) -> str:
         if self.reason is None:
             return f"in all {counted(self.states, 'state')} that can be reached"
-        return f"in all states: {self.reason}"
+        narrowed = f"; {counted(self.narrowed, 'question')} answered by those that can" if self.narrowed else ""
+        return f"in all states: {self.reason}{narrowed}"
 
 
 @dataclass(frozen=True)
@@ -68,33 +73,55 @@ class Reached:
 
     state: State
     by: str = ""
+    action: tuple[str, Args] | None = None
     before: Reached | None = None
     actions: int = 0
 
-    @property
-    def way(self) -> tuple[str, ...]:
-        """The actions from the initial state to this one; no others lead there in fewer."""
+    def steps(self) -> list[Reached]:
+        """The states from the first one that is not the initial one to this one; no others lead here in fewer."""
         found, here = [], self
         while here.before is not None:
-            found.append(here.by)
+            found.append(here)
             here = here.before
-        return tuple(reversed(found))
+        return found[::-1]
+
+    @property
+    def way(self) -> tuple[str, ...]:
+        """The actions from the initial state to this one."""
+        return tuple([step.by for step in self.steps()])
 
 
-def reachable(theory: BasicActionTheory) -> tuple[list[Reached], Scope]:
+def reachable(dynamics: Dynamics, seconds: float = SECONDS) -> tuple[list[Reached], Scope]:
     """The states that can be reached, those that take fewer actions first, as far as they can be gone through."""
-    return _Search(Dynamics(theory)).run()
+    return _Search(dynamics, time.monotonic() + seconds).run()
+
+
+def leads_on(dynamics: Dynamics, reached: Reached) -> bool:
+    """Whether the actions that lead to a state do so in a theory that leaves nothing open, which need not be the one
+    in which it was found."""
+    state = dynamics.initial()
+    for step in reached.steps():
+        assert step.action is not None
+        try:
+            if not dynamics.possible(state, *step.action):
+                return False
+            state = dynamics.progress(state, *step.action)
+        except ProgramError:
+            return False
+        if not all(_is_true(condition, state) for condition in _invariants(dynamics)):
+            return False
+    return True
 
 
 @dataclass
 class _Search:
     dynamics: Dynamics
+    deadline: float
     found: list[Reached] = field(default_factory=list)
     reason: str | None = None
     """Why what was found is not all."""
     _seen: set[State] = field(default_factory=set)
     _values: int = 0
-    _deadline: float = field(default_factory=lambda: time.monotonic() + SECONDS)
 
     def run(self) -> tuple[list[Reached], Scope]:
         """Breadth first."""
@@ -116,8 +143,8 @@ class _Search:
         theory = self.dynamics.theory
         if Effort(theory).of(_evaluated(theory)) > MOST_EFFORT:
             raise NotDecidedError("what the actions do takes too long to evaluate")
-        holds = [self.dynamics.knowing.condition(theory.definitions[name].body, 0) for name in theory.invariants]
-        instances = {action: _domains(action) for action in theory.actions.values()}
+        holds = _invariants(self.dynamics)
+        instances = {action: _domains(action) for action in theory.actions.values() if action.effects or action.senses}
         self._add(Reached(self.dynamics.initial()))
         for here in self.found:
             for action, domains in instances.items():
@@ -137,11 +164,11 @@ class _Search:
         for case, successors in explore(partial(Case, domains), partial(self._successors, here.state, action)):
             if not case.whole:
                 self._not_all(f"`{action.name}` has more instances than can be gone through")
-            if time.monotonic() > self._deadline:
-                raise _TooLongError(f"it takes more than {SECONDS:g} s to find those that can be reached")
-            for by, state in successors:
+            if time.monotonic() > self.deadline:
+                raise _TooLongError("it takes too long to find those that can be reached")
+            for by, args, state in successors:
                 if state not in self._seen and all(_is_true(condition, state) for condition in holds):
-                    self._add(Reached(state, by, here, here.actions + 1))
+                    self._add(Reached(state, by, (action.name, args), here, here.actions + 1))
 
     def _add(self, reached: Reached) -> None:
         self._values += _size(reached.state)
@@ -150,13 +177,14 @@ class _Search:
         self.found.append(reached)
         self._seen.add(reached.state)
 
-    def _successors(self, state: State, action: Action, case: Case) -> list[tuple[str, State]]:
-        """The states after an action, each with the action as text."""
+    def _successors(self, state: State, action: Action, case: Case) -> list[tuple[str, Args, State]]:
+        """The states after an action, each with the action as text, and its arguments."""
         parameters = range(len(action.parameters))
         args = tuple([case[slot] for slot in parameters])
         found = [(sensed, _plain(after)) for sensed, after in self._after(state, action, args)]
-        call = self.dynamics.call(action.name, tuple([case.value(slot) for slot in parameters])) if found else ""
-        return [(f"`{call}`{sensed}", after) for sensed, after in found]
+        shown = tuple([case.value(slot) for slot in parameters])
+        call = self.dynamics.call(action.name, shown) if found else ""
+        return [(f"`{call}`{sensed}", shown, after) for sensed, after in found]
 
     def _after(self, state: State, action: Action, args: Args) -> list[tuple[str, State]]:
         """What an action leads to if it can happen and its effects succeed, each with what is sensed in words."""
@@ -179,6 +207,11 @@ class _Search:
             return [("", after)]
         sensed = [f" (senses {', '.join(map(show, outcome.results))})" for outcome in outcomes]
         return [(words if len(outcomes) > 1 else "", o.state) for words, o in zip(sensed, outcomes, strict=True)]
+
+
+def _invariants(dynamics: Dynamics) -> list[Condition]:
+    theory = dynamics.theory
+    return [dynamics.knowing.condition(theory.definitions[name].body, 0) for name in theory.invariants]
 
 
 class _TooLongError(NotDecidedError):

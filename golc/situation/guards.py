@@ -9,15 +9,13 @@ from itertools import islice
 from golc.diagnostics import Span
 from golc.theory import errors
 from golc.theory.border import PythonFunction, extern_value
-from golc.theory.evaluate import DEPTH
+from golc.theory.evaluate import DEPTH, MOST_REMEMBERED
 from golc.theory.order import arranged
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Comprehension, Operation, Quantified, Term
 from golc.theory.theory import Static
 from golc.theory.types import Type, Value, show, show_call
 
-MOST_REMEMBERED = 100_000
-"""How many values of one static function are kept."""
 LARGEST_BITS = 100_000
 LARGEST = 1 << LARGEST_BITS
 """No product of numbers reaches it: repeated squaring fills any memory in a few steps."""

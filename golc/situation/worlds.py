@@ -23,7 +23,7 @@ T = TypeVar("T")
 Assignment: TypeAlias = tuple[tuple[int, World], ...]
 """Which row some factors, given by their numbers, have in a world."""
 
-MOST_CASES = 2_000_000
+MOST_CASES = 500_000
 """How many cases are gone through to answer one question, or kept as rows of one factor."""
 
 LONG = 16
@@ -160,45 +160,46 @@ def survey(state: State, ask: Callable[[Readable], T]) -> Iterator[tuple[Assignm
         yield (), ask(state)
         return
     stack: list[_Alternatives] = []
-    view, assignment, cases = View(state), cast(Assignment, ()), 0
-    while True:
+    path: list[tuple[int, World]] = []
+    view: View | None = View(state)
+    cases = 0
+    while view is not None:
         answer = ask(view)
         for number, row in view.trail:
-            stack.append(_Alternatives(state, assignment, number, iter(state.factors[number].rows[1:])))
-            assignment = (*assignment, (number, row))
-        yield assignment, answer
-        cases += 1 + len(assignment) // LONG
+            stack.append(_Alternatives(state, len(path), number, iter(state.factors[number].rows[1:])))
+            path.append((number, row))
+        yield tuple(path), answer
+        cases += 1 + len(path) // LONG
         if cases > MOST_CASES:
             raise TooManyCasesError(MOST_CASES)
-        found = None
-        while stack and found is None:
-            found = stack[-1].next()
-            if found is None:
+        view = None
+        while stack and view is None:
+            view = stack[-1].next(path)
+            if view is None:
                 stack.pop()
-        if found is None:
-            return
-        view, assignment = found
 
 
 @dataclass(slots=True)
 class _Alternatives:
-    """The rows of a factor that are still to be looked at, below an assignment of others."""
+    """The rows of a factor that are still to be looked at, below the first so many assignments of a path."""
 
     worlds: Worlds
-    prefix: Assignment
+    depth: int
     number: int
     rows: Iterator[World]
     view: View | None = None
 
-    def next(self) -> tuple[View, Assignment] | None:
-        """The next case; its view is used again unless it has been assigned more by reading."""
+    def next(self, path: list[tuple[int, World]]) -> View | None:
+        """The next case, to which the path then leads; its view is used again unless reading has assigned it more."""
+        del path[self.depth :]
         row = next(self.rows, None)
         if row is None:
             return None
         if self.view is None or self.view.trail:
-            self.view = View(self.worlds, self.prefix)
+            self.view = View(self.worlds, tuple(path))
         self.view.assign(self.worlds.factors[self.number], row)
-        return self.view, (*self.prefix, (self.number, row))
+        path.append((self.number, row))
+        return self.view
 
 
 def _everywhere(ask: Callable[..., Value], world: Readable, *rest: Value) -> Iterator[Value]:

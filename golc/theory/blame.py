@@ -7,6 +7,7 @@ use, or that finding, then speaks for all.
 
 from __future__ import annotations
 
+import bisect
 from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from enum import Enum
@@ -37,15 +38,16 @@ class Blame:
 
     accused: list[tuple[Diagnostic, tuple[Suspect, ...]]] = field(default_factory=list)
     cleared: set[Suspect] = field(default_factory=set)
+    short: set[Span] = field(default_factory=set)
+    """The declarations to which some use gives more arguments than they have parameters."""
 
     def accuse(self, finding: Diagnostic, suspects: Iterable[Suspect]) -> None:
         """A finding that is somebody else's fault if one of the suspects is wrong."""
         self.accused.append((finding, tuple(suspects)))
 
-    def contradicted(self, matter: Matter) -> set[Span]:
-        """The declarations that nothing has cleared and something contradicts."""
-        found = {suspect for _, suspects in self.accused for suspect in suspects if suspect.matter is matter}
-        return {suspect.place for suspect in found - self.cleared}
+    def without_parameters(self) -> set[Span]:
+        """The declarations that have fewer parameters than every use gives them arguments."""
+        return {place for place in self.short if Suspect(Matter.ARITY, place) not in self.cleared}
 
     def settle(self, findings: list[Diagnostic], faulty: Iterable[Suspect]) -> list[Diagnostic]:
         """The findings without those that another one speaks for; ``faulty`` have findings of their own."""
@@ -58,7 +60,7 @@ class Blame:
                 uses.setdefault(suspect, []).append(finding)
         guilty = {suspect for suspect, found in uses.items() if len(found) > 1 and suspect not in self.cleared} | own
         spoken: dict[int, Diagnostic | None] = {}
-        for suspect in sorted(guilty & uses.keys(), key=lambda each: (each not in own, -len(uses[each]))):
+        for suspect in sorted(filter(guilty.__contains__, uses), key=lambda each: (each not in own, -len(uses[each]))):
             found = [finding for finding in uses[suspect] if id(finding) not in spoken]
             spoken.update(dict.fromkeys(map(id, found)))
             if suspect not in own and found:
@@ -92,6 +94,18 @@ def _line(span: Span, source: Source) -> str:
     return str(span.line) if span.source is source else f"{span.line} of {span.source.name}"
 
 
-def inside(finding: Diagnostic, span: Span) -> bool:
-    """Whether a finding begins inside a span."""
-    return finding.span.source is span.source and span.start <= finding.span.start < span.end
+class Places:
+    """Where some spans begin, to be asked many times."""
+
+    def __init__(self, spans: Iterable[Span]) -> None:
+        self._starts: dict[int, list[int]] = {}
+        for span in spans:
+            self._starts.setdefault(id(span.source), []).append(span.start)
+        for starts in self._starts.values():
+            starts.sort()
+
+    def inside(self, span: Span) -> bool:
+        """Whether one of them begins inside a span."""
+        starts = self._starts.get(id(span.source), [])
+        place = bisect.bisect_left(starts, span.start)
+        return place < len(starts) and starts[place] < span.end

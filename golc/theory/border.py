@@ -40,13 +40,15 @@ def extern_value(static: Static, args: tuple[Value, ...], span: Span) -> Value:
     """
     body = static.body
     assert isinstance(body, PythonFunction)
-    args = tuple([plain(arg) for arg in args])
-    if args not in body.values:
+    try:
+        return body.values[args]
+    except KeyError:
+        args = tuple([plain(arg) for arg in args])
         value = _computed(static, body.file, args, span)
         if len(body.values) >= MOST_REMEMBERED:
             body.values.clear()
         body.values[args] = value
-    return body.values[args]
+        return value
 
 
 def _computed(static: Static, file: PythonFile, args: tuple[Value, ...], span: Span) -> Value:

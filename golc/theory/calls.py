@@ -46,7 +46,12 @@ def parts(statement: Statement) -> tuple[Statement, ...]:
 
 
 def circular(graph: Mapping[str, frozenset[str]]) -> list[list[str]]:
-    """The strongly connected parts of a graph that have a circle, each in some order.
+    """The strongly connected parts of a graph that have a circle, each in some order."""
+    return [part for part in components(graph) if len(part) > 1 or part[0] in graph.get(part[0], frozenset())]
+
+
+def components(graph: Mapping[str, frozenset[str]]) -> list[list[str]]:
+    """The strongly connected parts of a graph, each in some order and behind those to which it leads.
 
     Tarjan's algorithm (1972) with a stack of its own instead of recursion.
     """
@@ -74,7 +79,7 @@ def circular(graph: Mapping[str, frozenset[str]]) -> list[list[str]]:
                 work.append((after, iter(sorted(graph.get(after, frozenset())))))
             elif after in open_:
                 low[node] = min(low[node], index[after])
-    return [part for part in found if len(part) > 1 or part[0] in graph.get(part[0], frozenset())]
+    return found
 
 
 def _close(open_: dict[str, None], node: str) -> list[str]:

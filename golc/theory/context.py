@@ -15,7 +15,7 @@ from typing import Protocol, TypeAlias
 
 from golc.diagnostics import Code, Diagnostic, Findings, Label, Severity, Source, Span
 from golc.syntax import tree
-from golc.theory.blame import Blame, Matter, Suspect, also, inside
+from golc.theory.blame import Blame, Matter, Places, Suspect, also
 from golc.theory.closed import Closed
 from golc.theory.declare import Declared
 from golc.theory.python_file import PythonFiles
@@ -175,8 +175,9 @@ class Context:
 
     def misspelt(self, code: Code, name: Span, similar: Suggestion) -> None:
         """A name that is declared nowhere, but one like it is."""
+        kind = "type" if code is Code.UNKNOWN_TYPE else similar.kind
         suspects = [Suspect(Matter.NAME, label.span) for label in similar.labels if self._is_spare(similar.name)]
-        message = f"unknown {similar.kind} `{name.text}`"
+        message = f"unknown {kind} `{name.text}`"
         self.error(code, message, name, "not declared", similar.help, similar.labels, suspects)
 
     def _is_spare(self, name: str) -> bool:
@@ -207,42 +208,48 @@ class Context:
             self.findings.add(replace(first, notes=also([first, *rest])))
         wrong = self._wrong(_TYPE_FAULTS)
         faulty = [Suspect(matter, entry.span) for entry in wrong for matter in _untyped(entry.node)]
-        faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE,))]
+        faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE, Code.PYTHON))]
+        faulty += [Suspect(Matter.NAME, entry.span) for entry in self._wrong((Code.PYTHON,))]
         self.findings.diagnostics[:] = self.blame.settle(self.findings.diagnostics, faulty)
 
     def _merge_missing(self) -> None:
         """Sort the uses of each missing name. A use that is like some other name is one of them all the same; and
         what is missing inside a declaration to which nothing gives so few arguments, or which has two parameters of one
         name, is its parameters."""
-        short = self.blame.contradicted(Matter.ARITY)
-        twice = [finding for finding in self.findings.diagnostics if finding.code is Code.DUPLICATE]
-        bodies = [
-            entry.node.span
-            for entry in self._declarations()
-            if entry.span in short or any(inside(f, entry.node.span) and f.span != entry.span for f in twice)
-        ]
+        kept: list[Diagnostic] = []
+        for finding in self.findings.diagnostics:
+            uses = self._missing.get(("value", finding.span.text)) if _is_unknown(finding) else None
+            (kept if uses is None else uses).append(finding)
+        self.findings.diagnostics[:] = kept
+        bodies = self._without_parameters()
         for key, uses in [*self._missing.items()]:
-            if key[0] == "value":
-                uses += [use for use in self.findings.diagnostics if _is_unknown(use) and use.span.text == key[1]]
-                known = {id(use) for use in uses}
-                self.findings.diagnostics[:] = [d for d in self.findings.diagnostics if id(d) not in known]
-            uses[:] = [use for use in uses if not any(inside(use, body) for body in bodies)]
+            uses[:] = [use for use in uses if not any(_begins_in(use.span, body) for body in bodies)]
             uses.sort(key=lambda finding: (finding.span.source.name, finding.span.start))
             if not uses:
                 del self._missing[key]
 
-    def _declarations(self) -> list[Entry]:
-        return [entry for space in (self.names.values, self.names.doings) for entry in space.entries.values()]
+    def _without_parameters(self) -> list[Span]:
+        """The declarations whose parameters are probably wrong, as far as names are missing in them."""
+        short = self.blame.without_parameters()
+        names = {entry.span for space in (self.names.values, self.names.doings) for entry in space.entries.values()}
+        found = [finding.span for finding in self.findings.diagnostics if finding.code is Code.DUPLICATE]
+        twice = Places(span for span in found if span not in names)
+        return [
+            entry.node.span
+            for space in (self.names.values, self.names.doings)
+            for entry in space.entries.values()
+            if entry.span in short or twice.inside(entry.node.span)
+        ]
 
     def _wrong(self, codes: tuple[Code, ...]) -> list[Entry]:
         """The declarations of values that have a finding of their own with one of some codes."""
-        found = [finding for finding in self.findings.diagnostics if finding.code in codes]
+        found = Places(finding.span for finding in self.findings.diagnostics if finding.code in codes)
         kinds = (Kind.FLUENT, Kind.STATIC, Kind.EXTERN, Kind.DEFINITION)
-        return [
-            entry
-            for entry in (self.names.values.of(*kinds) if found else ())
-            if any(inside(finding, entry.node.span) for finding in found)
-        ]
+        return [entry for entry in self.names.values.of(*kinds) if found.inside(entry.node.span)]
+
+
+def _begins_in(span: Span, body: Span) -> bool:
+    return span.source is body.source and body.start <= span.start < body.end
 
 
 def _untyped(node: tree.Node) -> tuple[Matter, ...]:

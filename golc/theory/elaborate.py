@@ -42,6 +42,7 @@ from golc.theory.theory import (
     Static,
 )
 from golc.theory.types import Type
+from golc.theory.unfolding import check_unfolding
 
 T = TypeVar("T")
 
@@ -143,7 +144,8 @@ def _elaborate(
         prunes(context, [node for node in file.declarations if isinstance(node, tree.Prune | tree.PruneAfter)]),
         context.python,
     )
-    _check_circles(context, theory)
+    if not _has_circles(context, theory):
+        check_unfolding(context, theory)
     check_initially(context, theory)
     context.finish()
     return None if context.gaps else theory
@@ -202,16 +204,19 @@ def _with_recursion(procedures: dict[str, Procedure]) -> Mapping[str, Procedure]
     return {name: replace(procedure, recursive=name in recursive) for name, procedure in procedures.items()}
 
 
-def _check_circles(context: Context, theory: BasicActionTheory) -> None:
-    """No precondition may ask for itself through ``poss(…)``; definitions alone are checked where they are resolved."""
+def _has_circles(context: Context, theory: BasicActionTheory) -> bool:
+    """Whether a precondition asks for itself through ``poss(…)``, which is a finding; definitions alone are checked
+    where they are resolved."""
     graph = {f"action {name}": _asks(action.preconditions) for name, action in theory.actions.items()}
     graph |= {f"definition {name}": _asks((found.body,)) for name, found in theory.definitions.items()}
-    for circle in circular(graph):
+    circles = circular(graph)
+    for circle in circles:
         places = [_place(theory, node) for node in circle]
         action = next(place for place in places if isinstance(place, Action))
         labels = tuple([Label(place.span, "part of the circle") for place in places if place is not action][:5])
         message = f"the precondition of `{action.name}` depends on itself"
         context.error(Code.CIRCULAR, message, action.span, "asks `poss` of itself", labels=labels)
+    return bool(circles)
 
 
 def _place(theory: BasicActionTheory, node: str) -> Action | Definition:

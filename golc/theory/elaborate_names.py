@@ -115,6 +115,8 @@ def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding,
         context.clear([suspect])
         return True
     name = node.name if isinstance(node, tree.Apply) else node.action
+    if given > entry.arity:
+        context.blame.short.add(entry.span)
     takes = f"{entry.arity} argument{'s' * (entry.arity != 1)}" if entry.arity else "no arguments"
     labels = (Label(entry.span, f"{entry.kind.phrase} with {takes} is declared here"),)
     marker = f"{given} argument{'s' * (given != 1)} here" if given else "no arguments here"

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from typing import Generic, TypeAlias, TypeVar, cast
+from functools import cached_property
+from typing import Generic, NamedTuple, TypeAlias, TypeVar, cast
 
 from golc.theory import errors
 from golc.theory.border import PythonFunction, extern_value
@@ -43,8 +44,18 @@ Env: TypeAlias = tuple[Value, ...]
 S = TypeVar("S")
 """What stands for a situation."""
 
+MOST_REMEMBERED = 100_000
+"""How many values of static functions are kept."""
+
 DEPTH = 1_000
 """How many calls of static functions may be open at a time: a recursion that goes deeper is taken for endless."""
+
+
+class _Called(NamedTuple):
+    """The value of a static function for some arguments, and how many calls are open at a time to work it out."""
+
+    value: Value
+    calls: int
 
 
 class Evaluator(Generic[S]):
@@ -57,6 +68,13 @@ class Evaluator(Generic[S]):
     """How many more terms it evaluates."""
     depth = 0
     """How many calls of static functions are open."""
+    _deepest = 0
+    """The most that have been open at a time since the one that is worked out began."""
+
+    @cached_property
+    def _called(self) -> dict[tuple[str, Env], _Called]:
+        """What static functions, which never change, have given for some arguments."""
+        return {}
 
     def static(self, name: str) -> Static:
         """A static function."""
@@ -186,18 +204,31 @@ class Evaluator(Generic[S]):
             return static.body[args]
         if isinstance(static.body, PythonFunction):
             return extern_value(static, args, term.span)
-        if self.depth >= DEPTH:
+        found = self._called.get((term.static, args))
+        if self.depth + (1 if found is None else found.calls) > DEPTH:
             raise errors.endless(static.span, static.name)
+        if found is None:
+            found = self._call(static, static.body, situation, args)
+            if len(self._called) < MOST_REMEMBERED:
+                self._called[term.static, args] = found
+        self._deepest = max(self._deepest, self.depth + found.calls)
+        return found.value
+
+    def _call(self, static: Static, body: Term, situation: S, args: Env) -> _Called:
+        before = self._deepest
         self.depth += 1
+        self._deepest = self.depth
         try:
-            value = self.evaluate(static.body, situation, args)
+            value = self.evaluate(body, situation, args)
         except RecursionError:
             raise errors.endless(static.span, static.name) from None
         finally:
             self.depth -= 1
+            calls = self._deepest - self.depth
+            self._deepest = max(before, self._deepest)
         if value not in static.type:
-            raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
-        return value
+            raise errors.value_outside(body.span, show_call(static.name, args), value, static.type)
+        return _Called(value, calls)
 
     def _quantified(self, term: Quantified, situation: S, env: Env) -> Value:
         found: list[Value] = []

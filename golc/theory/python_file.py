@@ -130,7 +130,7 @@ class PythonFile:
         if not self.trusted:
             raise NotTrustedError(f"{self.path} is not executed")
         if self._failure is not None:
-            raise self._failure
+            raise self._failure.with_traceback(None)
         if self._module is None:
             try:
                 self._module = self._executed()

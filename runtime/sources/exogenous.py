@@ -9,8 +9,9 @@ import contextlib
 import os
 import select
 import threading
-from collections.abc import Mapping
-from typing import Literal, cast
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Literal, TypeAlias, cast
 
 from golc.diagnostics import Code, Diagnostic, Findings, Source, Span
 from golc.runtime.clock import Clock
@@ -28,7 +29,11 @@ COMMANDS: Mapping[str, str] = {
     "abort": "stop what the devices do and go on",
     "stop": "end the run",
 }
-"""What may stand behind a ``!``."""
+"""What may stand behind a ``!``, ..."""
+DEEDS = ("press", "lift", "put")
+"""... and the beginnings of what else may, where somebody is at a simulated robot."""
+Hands: TypeAlias = Callable[[str, Span, Findings], object]
+"""Those of somebody at a simulated robot: they do what a text says, or it is a finding at its place."""
 
 LONGEST_LINE = 65_536
 """Bytes after which a line without an end is given up."""
@@ -37,9 +42,10 @@ LONGEST_LINE = 65_536
 class Lines:
     """Makes an item for the inbox of a line of text, for one source."""
 
-    def __init__(self, theory: BasicActionTheory, source: str) -> None:
+    def __init__(self, theory: BasicActionTheory, source: str, hands: Hands | None = None) -> None:
         self._theory = theory
         self._source = source
+        self._hands = hands
         self._count = 0
 
     def read(self, raw: bytes, reply: Reply) -> Item | None:
@@ -64,11 +70,21 @@ class Lines:
         action = self._theory.actions.get(name)
         return name.startswith("!") or (action is not None and action.exogenous)
 
-    def _command(self, place: Source, reply: Reply) -> Item:
+    def _deed(self, place: Source, hands: Hands) -> Item | None:
+        """Something for the hands to do, which they do at once."""
+        findings = Findings()
+        hands(place.text[1:], Span(place, 1, len(place.text)), findings)
+        # They use the words, and so the code, of a world file; this is none.
+        refused = [replace(finding, code=Code.EVENT) for finding in findings.diagnostics]
+        return self._refusal(place, *refused) if refused else None
+
+    def _command(self, place: Source, reply: Reply) -> Item | None:
         name = place.text[1:].strip()
         if name in COMMANDS:
             return Command(cast(Literal["state", "history", "abort", "stop"], name), self._source, reply)
-        known = [f"!{command}" for command in COMMANDS]
+        if self._hands is not None and name.partition(" ")[0] in DEEDS:
+            return self._deed(place, self._hands)
+        known = [f"!{command}" for command in (*COMMANDS, *(DEEDS if self._hands is not None else ()))]
         help_ = did_you_mean(f"!{name}", known) or "there are " + ", ".join(known)
         where = Span(place, 0, len(place.text))
         return self._refusal(place, Diagnostic(Code.EVENT, f"unknown command `!{name}`", where, help=help_))
@@ -128,9 +144,17 @@ class Terminal:
 
     name = "stdin"
 
-    def __init__(self, theory: BasicActionTheory, inbox: Inbox, desk: Desk, reply: Reply, descriptor: int = 0) -> None:
+    def __init__(
+        self,
+        theory: BasicActionTheory,
+        inbox: Inbox,
+        desk: Desk,
+        reply: Reply,
+        descriptor: int = 0,
+        hands: Hands | None = None,
+    ) -> None:
         self._theory = theory
-        self._lines = Lines(theory, self.name)
+        self._lines = Lines(theory, self.name, hands)
         self._inbox = inbox
         self._desk = desk
         self._reply = reply

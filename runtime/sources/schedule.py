@@ -33,6 +33,8 @@ _ON = re.compile(
     + _TIME
     + r"\s*:(?P<event>.*)"
 )
+EMPTY = "write `at 3 s: EVENT` or `on ACTION after 2.5 s: EVENT`, or a comment, `# nothing happens`"
+"""What belongs into an events file in which there is nothing."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +117,7 @@ class Player:
 def read_schedule(path: str | Path, theory: BasicActionTheory) -> Schedule:
     """Read an events file; raises ``UserError`` with a diagnostic for each wrong line."""
     findings = Findings()
-    schedule = parse_schedule(read_source(path), theory, findings)
+    schedule = parse_schedule(read_source(path, EMPTY), theory, findings)
     if findings.has_errors:
         raise UserError(*findings.diagnostics)
     return schedule

@@ -5,13 +5,14 @@ from __future__ import annotations
 import statistics
 from collections.abc import Iterator
 
-from tests.bench import classic, knowledge, machine, online, programs, robots, startup
+from tests.bench import checking, classic, knowledge, machine, online, programs, robots, startup
 from tests.bench.measure import Row, seconds
 
 
 def every_row() -> Iterator[Row]:
     """The rows of every module."""
     yield from startup.ROWS
+    yield from checking.ROWS
     yield from online.ROWS
     yield from programs.ROWS
     yield from knowledge.ROWS

@@ -1,9 +1,11 @@
-"""Theories by chance, of the kinds of declarations that theories of people have."""
+"""Theories by chance, of the kinds of declarations that theories of people have, and large ones."""
 
 from __future__ import annotations
 
 import random
-from collections.abc import Callable
+import runpy
+from collections.abc import Callable, Mapping
+from pathlib import Path
 
 import pytest
 
@@ -140,3 +142,12 @@ class _Writer:
 def write_theory() -> Callable[[int], str]:
     """A theory for each seed."""
     return lambda seed: _Writer(seed).theory()
+
+
+@pytest.fixture(scope="session")
+def shapes() -> Mapping[str, Callable[[int], str]]:
+    """Domains of about so many lines with a great deal of one thing, by what it is, as the benchmarks measure them."""
+    found: Mapping[str, Callable[[int], str]] = runpy.run_path(str(Path(__file__).parents[1] / "bench/large.py"))[
+        "SHAPES"
+    ]
+    return found

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import json
 import random
+import subprocess
+import sys
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -30,9 +32,9 @@ def path() -> Iterator[Path]:
 
 def examined(path: Path, data: bytes) -> None:
     path.write_bytes(data)
-    examined = examine(path)
-    theory, diagnostics = examined.theory, examined.findings
-    assert (theory is None) == any(diagnostic.severity.value == "error" for diagnostic in diagnostics)
+    examined = examine(path, proofs=True)
+    diagnostics = examined.findings
+    assert examined.theory is not None or any(diagnostic.severity.value == "error" for diagnostic in diagnostics)
     for diagnostic in diagnostics:
         assert diagnostic.message in render(diagnostic) or not diagnostic.message.isprintable()
         json.dumps(to_json(diagnostic))
@@ -59,6 +61,20 @@ def test_mutated_programs(path: Path, rng: random.Random) -> None:
 @given(st.lists(st.sampled_from(WORDS), max_size=40))
 def test_words_of_programs(path: Path, words: list[str]) -> None:
     examined(path, f"domain d\n{' '.join(words)}\n".encode())
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_mutants_go_through_every_command(tmp_path: Path, seed: int) -> None:
+    command = [sys.executable, str(ROOT / "tests/fuzz"), "--count", "25", "--seed", str(seed), "--keep", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stdout[:10]) == (0, "25 inputs "), done.stdout
+
+
+def test_an_input_for_which_there_is_no_memory_is_kept(tmp_path: Path) -> None:
+    command = [sys.executable, str(ROOT / "tests/fuzz"), "--count", "2", "--megabytes", "30", "--keep", str(tmp_path)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and ", 2 faults of 1 kinds" in done.stdout
+    assert {path.suffix for path in tmp_path.iterdir()} == {".gl", ".txt"}
 
 
 def mutated(text: str, rng: random.Random) -> str:

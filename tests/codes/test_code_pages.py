@@ -9,6 +9,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from textwrap import indent
 
 import pytest
 
@@ -63,6 +64,14 @@ def test_the_examples_are_what_they_are_for(
         pytest.skip("nqc is missing")
     assert found(wrong, tmp_path / "wrong") == [code.code]
     assert found(right, tmp_path / "right") == []
+
+
+@pytest.mark.parametrize("code", Code, ids=lambda code: code.code)
+def test_golc_explain_shows_both_examples(code: Code, capsys: pytest.CaptureFixture[str]) -> None:
+    assert invoke(["explain", code.code]) == 0
+    shown = capsys.readouterr().out
+    for example in (page(code).wrong, page(code).right):
+        assert [text for text in example.files.values() if indent(text, "    ").rstrip() not in shown] == []
 
 
 @pytest.mark.parametrize("code", Code, ids=lambda code: code.code)

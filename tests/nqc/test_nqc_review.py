@@ -259,3 +259,10 @@ def test_what_plans_without_a_brick_does_not_look_into_nqc_files(tmp_path: Path)
     (tmp_path / "robot.gl").write_text(DOMAIN)
     (tmp_path / "robot.nqc").write_text("task main() { }\n")
     assert load(tmp_path / "robot.gl").name == "robot"
+
+
+def test_a_note_is_counted_and_no_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "robot.gl").write_text(DOMAIN.replace("1 .. ring", "14 .. ring"))
+    (tmp_path / "robot.nqc").write_text(NQC)
+    assert invoke(["check", "--strict", str(tmp_path / "robot.gl")]) == 0
+    assert capsys.readouterr().err == "checked 1 file: 1 note\n"

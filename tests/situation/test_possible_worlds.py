@@ -6,6 +6,7 @@ The domain's effects, sensing and formulas are written a second time by hand, ov
 from __future__ import annotations
 
 import itertools
+import tracemalloc
 from collections.abc import Callable, Hashable
 from typing import Any
 
@@ -341,3 +342,15 @@ def test_cases_that_are_given_by_many_fluents_count_more(monkeypatch: pytest.Mon
     assert len(list(itertools.islice(answers, 10))) == 10
     with pytest.raises(TooManyCasesError):  # of 160 fluents, each case counts eleven times
         next(answers)
+
+
+def test_a_case_that_is_given_by_very_many_fluents_takes_no_more_memory_than_they() -> None:
+    state = choices((0,) * 20_000, dict.fromkeys(range(20_000), (0, 1)))
+    tracemalloc.start()
+    try:
+        case, answer = next(survey(state, lambda world: any(map(world.__getitem__, range(20_000)))))
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert (len(case), answer) == (20_000, False)
+    assert peak < 100 * 2**20

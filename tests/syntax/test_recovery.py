@@ -168,3 +168,9 @@ def test_an_expression_over_several_lines_needs_brackets() -> None:
     assert parse_expression(Source("<goal>", "(a\n  and b)\n"), findings) is not None
     assert parse_expression(Source("<goal>", "a\nand b"), findings) is None
     assert len(findings.diagnostics) == 1
+
+
+def test_a_file_of_another_language_is_one_mistake() -> None:
+    text = "void go() { Wait(1); }\n\ntask watch() {\n    go();\n}\n\nint n;\n"
+    message = "the domain line is missing, and nothing in the file begins as a declaration does"
+    assert findings_of(text) == [(1, 1, Code.DOMAIN, message)]

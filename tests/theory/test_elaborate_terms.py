@@ -186,8 +186,13 @@ def test_an_endless_static_is_given_up(found: Build) -> None:
 
 
 def test_a_static_that_takes_for_ever_is_given_up(found: Build) -> None:
-    text = "static f(n: int): int = n if n < 2 else f(n - 1) + f(n - 2)\nconst c = f(80)\n"
+    text = "static f(n: int): int = count x: 1..1000, y: 1..1000. x < y + n\nconst c = f(80)\n"
     assert "too many steps" in found(text)[0]
+
+
+def test_a_static_that_asks_for_the_same_values_again_remembers_them(theory: Build) -> None:
+    text = "static f(n: int): int = n if n < 2 else f(n - 1) + f(n - 2)\nconst c = f(80)\n"
+    assert theory(text).constants["c"].value == 23416728348467685
 
 
 def test_a_number_that_grows_without_bounds_is_given_up(found: Build) -> None:
@@ -202,5 +207,27 @@ def test_deep_nesting_is_elaborated(theory: Build, opening: str, closing: str) -
 
 
 def test_a_long_chain_of_definitions_is_elaborated(theory: Build) -> None:
-    lines = [f"define d{n} := d{n + 1} + 1\n" for n in range(2000)]
-    assert theory("".join(lines) + "fluent d2000: int = 1\n").definitions["d0"].type == INT
+    lines = [f"define d{n} := d{n + 1} + 1\n" for n in range(400)]
+    assert theory("".join(lines) + "fluent d400: int = 1\n").definitions["d0"].type == INT
+
+
+@pytest.mark.parametrize("length", [2_000, 12_000])
+def test_a_chain_of_definitions_that_is_too_long_is_said_once(found: Build, length: int) -> None:
+    lines = [f"define d{n} := d{n + 1} + 1\n" for n in range(length)]
+    (said,) = found("".join(lines) + f"fluent d{length}: int = 1\n")
+    # d at the end of the chain has 2 levels, each one before it 2 more: the 500th has 1,000, the 501st too many
+    place = length - 501
+    assert said.startswith(f"{place + 1}:8 GL008 `d{place}` is nested more than 1,000 levels deep")
+
+
+def test_definitions_that_double_are_said_once_where_they_are_too_large(found: Build) -> None:
+    lines = [f"define d{n} := d{n - 1} and d{n - 1}\n" for n in range(1, 300)]
+    (said,) = found("fluent f = true\ndefine d0 := f\n" + "".join(lines) + "goal g: d299\n")
+    # terms of dn: 1 of d0; 3 and twice as many as the one before it: 4 · 2ⁿ - 3 > 100,000 for n = 15
+    assert said.startswith("17:8 GL008 `d15` stands for more than 100,000 terms")
+
+
+def test_preconditions_that_double_are_said_where_they_are_too_large(found: Build) -> None:
+    lines = [f"action a{n}:\n    poss poss(a{n - 1}) and poss(a{n - 1})\n" for n in range(1, 30)]
+    (said,) = found("fluent f = true\naction a0:\n    poss f\n" + "".join(lines))
+    assert said.startswith("32:8 GL008 the precondition of `a15` stands for more than 100,000 terms")

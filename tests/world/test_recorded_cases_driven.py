@@ -21,6 +21,7 @@ from golc.planning.planner import executable
 from golc.runtime.clock import Clock
 from golc.runtime.devices.base import Args, Device, Router
 from golc.runtime.devices.bricks import Link, RcxDevice
+from golc.runtime.devices.rcx.transport import Transport
 from golc.runtime.loop.executive import Executive
 from golc.runtime.loop.happenings import Begun, End, Happening, TakenIn
 from golc.runtime.loop.inbox import Inbox, Report
@@ -43,36 +44,6 @@ DELIVERY = ROOT / "examples/delivery"
 ON_THE_BRICK = ("arrive_at_station", "stop_abnormally", "push_go_button")
 LONGEST_WAY = 60.0
 """Simulated seconds within which everything happens that is waited for."""
-
-
-class AtOnce:
-    """A transport without a pace: time passes when the host waits."""
-
-    name = "virtual"
-
-    def __init__(self, line: Line) -> None:
-        self._line = line
-        self._now = 0.0
-        self._received = bytearray()
-
-    def open(self) -> None:
-        """It always is."""
-
-    def close(self) -> None:
-        """Nothing is open."""
-
-    def now(self) -> float:
-        return self._now
-
-    def write(self, data: bytes) -> None:
-        self._received += self._line.host_sent(data, self._now)
-
-    def read(self, deadline: float) -> bytes:
-        while not self._received and self._now < deadline:
-            self._now = min(deadline, self._now + 0.01)
-            self._received += self._line.advance(self._now)
-        received, self._received = bytes(self._received), bytearray()
-        return received
 
 
 class Recording:
@@ -106,7 +77,7 @@ class Recording:
 class Operator(Device):
     """Puts the robot back when asked to, which takes a while."""
 
-    def __init__(self, transport: AtOnce) -> None:
+    def __init__(self, transport: Transport) -> None:
         super().__init__("operator")
         self._transport = transport
 
@@ -121,7 +92,7 @@ class Operator(Device):
 class RecordedInbox(Inbox):
     """While the loop waits, people report what they did in the recording, or the brick is asked until it tells."""
 
-    def __init__(self, recording: Recording, brick: RcxDevice, transport: AtOnce) -> None:
+    def __init__(self, recording: Recording, brick: RcxDevice, transport: Transport) -> None:
         super().__init__()
         self._waits: Iterator[Report | str] = iter(recording.waits)
         self._brick = brick
@@ -174,7 +145,9 @@ CASES: dict[str, tuple[tuple[str, str], ...]] = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_robot_does_what_was_recorded(name: str, program: Callable[[Target], Image]) -> None:
+def test_the_robot_does_what_was_recorded(
+    name: str, program: Callable[[Target], Image], virtual_port: Callable[[Line], Transport]
+) -> None:
     recorded = json.loads((ROOT / "tests/cases" / f"{name}.json").read_text())
     theory = load(DELIVERY / "delivery.gl")
     recording = Recording(theory, recorded["trace"])
@@ -184,7 +157,7 @@ def test_the_robot_does_what_was_recorded(name: str, program: Callable[[Target],
         text = text.replace(old, new)
     world = World(parse_world(Source("delivery.toml", text)), 0, Trace())
     line, _ = build(Firmware.V2, program(Target.RCX2), world, Options(), LineOptions(), Trace())
-    transport = AtOnce(line)
+    transport = virtual_port(line)
     brick = RcxDevice(number_device(theory, theory.devices[0], Findings()), Link("virtual", transport=transport))
     inbox = RecordedInbox(recording, brick, transport)
     happened: list[Happening] = []

@@ -3,9 +3,17 @@
 from __future__ import annotations
 
 import heapq
-from collections.abc import Iterator, Sequence
+from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
+
+
+@dataclass(frozen=True)
+class Names:
+    """What one can speak of to people: the buttons of the robot, and the stations."""
+
+    buttons: Collection[str] = ()
+    stations: Collection[str] = ()
 
 
 @dataclass(frozen=True)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from math import atan2, cos, hypot, pi
 
 from golc.runtime.rcxsim.world.floor import Floor, nearest_on_lines
 from golc.runtime.rcxsim.world.geometry import Point, Pose, nearest
-from golc.runtime.rcxsim.world.people import Cue, PutAt
+from golc.runtime.rcxsim.world.people import Cue, Names, PutAt
 from golc.runtime.rcxsim.world.robot import LightSensor, Robot
 
 
@@ -19,6 +19,7 @@ class Scene:
     floor: Floor
     robot: Robot
     script: tuple[Cue, ...] = ()
+    names: Names = field(default_factory=Names)
 
     def back_on_line(self, pose: Pose) -> Pose:
         """The pose on the nearest line that is most like this one; this one itself where there is no line."""

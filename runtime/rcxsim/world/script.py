@@ -15,12 +15,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection
-from dataclasses import dataclass
 from math import radians
 
 from golc.diagnostics import Code, Findings, Span
 from golc.runtime.rcxsim.surroundings import Button
-from golc.runtime.rcxsim.world.people import At, Cue, Deed, Lift, OnSound, OnStop, Press, PutAt, PutBack, PutDown
+from golc.runtime.rcxsim.world.people import At, Cue, Deed, Lift, Names, OnSound, OnStop, Press, PutAt, PutBack, PutDown
 from golc.runtime.rcxsim.world.robot import SECOND
 from golc.theory.suggest import did_you_mean
 
@@ -50,12 +49,22 @@ DEEDS = "people can `press BUTTON for 0.3 s`, `lift`, `put back`, `put at statio
 )
 
 
-@dataclass(frozen=True)
-class Names:
-    """What a script may speak of."""
-
-    buttons: Collection[str]
-    stations: Collection[str]
+def read_deed(text: str, where: Span, names: Names, findings: Findings) -> Deed | None:
+    """What people do, such as ``press go for 0.3 s``; None if it is wrong, which is then a finding at ``where``."""
+    text = text.strip()
+    match = _DEED.fullmatch(text)
+    if match is None:
+        findings.error(Code.WORLD, f"`{text}` is nothing that people can do here", where, help=DEEDS)
+        return None
+    if match["button"]:
+        known = _known(match["button"], "button", [*names.buttons, *BRICK_BUTTONS], where, findings)
+        return Press(match["button"], _micro(match["held"] or PRESSED_FOR)) if known else None
+    if match["station"]:
+        known = _known(match["station"], "station", names.stations, where, findings)
+        return _put_at(match["station"], match["way"]) if known else None
+    if match["x"]:
+        return PutDown(float(match["x"]), float(match["y"]), radians(float(match["facing"])))
+    return Lift() if match["lift"] else PutBack()
 
 
 def read_line(text: str, where: Span, names: Names, findings: Findings) -> Cue | None:
@@ -65,7 +74,7 @@ def read_line(text: str, where: Span, names: Names, findings: Findings) -> Cue |
     if not colon or match is None:
         findings.error(Code.WORLD, f"`{text.strip()}` does not say when people do what", where, help=FORMS)
         return None
-    deed = _deed(what.strip(), where, names, findings)
+    deed = read_deed(what, where, names, findings)
     if not _known(match["station"], "station", names.stations, where, findings) or deed is None:
         return None
     if match["at"]:
@@ -95,22 +104,6 @@ def _sound(word: str | None) -> int | None:
     if word in SOUNDS:
         return SOUNDS.index(word)
     return int(word) if word in map(str, range(len(SOUNDS))) else _UNHEARD_OF
-
-
-def _deed(text: str, where: Span, names: Names, findings: Findings) -> Deed | None:
-    match = _DEED.fullmatch(text)
-    if match is None:
-        findings.error(Code.WORLD, f"`{text}` is nothing that people can do here", where, help=DEEDS)
-        return None
-    if match["button"]:
-        known = _known(match["button"], "button", [*names.buttons, *BRICK_BUTTONS], where, findings)
-        return Press(match["button"], _micro(match["held"] or PRESSED_FOR)) if known else None
-    if match["station"]:
-        known = _known(match["station"], "station", names.stations, where, findings)
-        return _put_at(match["station"], match["way"]) if known else None
-    if match["x"]:
-        return PutDown(float(match["x"]), float(match["y"]), radians(float(match["facing"])))
-    return Lift() if match["lift"] else PutBack()
 
 
 def _put_at(station: str, way: str | None) -> PutAt:

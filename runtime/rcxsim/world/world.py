@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import degrees
 
+from golc.diagnostics import Findings, Span
 from golc.runtime.rcxsim.machine.sounds import SYSTEM_SOUNDS
 from golc.runtime.rcxsim.surroundings import OUTPUTS, Button, Mode, Output, Tone
 from golc.runtime.rcxsim.trace import Trace
@@ -18,7 +19,7 @@ from golc.runtime.rcxsim.world.people import Deed, Lift, People, Press, PutAt, P
 from golc.runtime.rcxsim.world.record import Happening, Record
 from golc.runtime.rcxsim.world.robot import SECOND
 from golc.runtime.rcxsim.world.scene import Scene, pose_at_station
-from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, SOUNDS
+from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, SOUNDS, read_deed
 from golc.runtime.rcxsim.world.senses import Senses
 
 
@@ -36,6 +37,7 @@ class World:
         self._turning = False
         self._pressed: list[Button] = []
         self._held = False
+        self._told = ""
         self._station = scene.station_seen(scene.robot.start)
         self.record = Record()
         self.record.begin(0.0, scene.robot.start)
@@ -97,6 +99,14 @@ class World:
         self._happen("plays", "tone" if number is None else SOUNDS[number])
         self._people.heard(number, self.scene.station_at(self.pose), self._now)
 
+    def act(self, text: str, where: Span, findings: Findings) -> str:
+        """Somebody does something now, in the words of a script; what became of it, nothing if the words are wrong."""
+        deed = read_deed(text, where, self.scene.names, findings)
+        if deed is None:
+            return ""
+        self._do(deed)
+        return self._told
+
     def _stop_or_go(self) -> None:
         stands = self._drive.stands_from()
         if stands is None:
@@ -152,6 +162,7 @@ class World:
             self._happen("no room", f"for the robot {self.scene.whereabouts(pose)}")
 
     def _happen(self, what: str, text: str, time: int | None = None, pose: Pose | None = None) -> None:
+        self._told = f"{what} {text}"
         at, where = self._now if time is None else time, self.pose if pose is None else pose
         self.record.happen(Happening(at / SECOND, where, what, text))
         details = {"x": round(where.x, 1), "y": round(where.y, 1), "heading": round(degrees(where.heading) % 360, 1)}

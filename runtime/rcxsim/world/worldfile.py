@@ -10,10 +10,10 @@ from pathlib import Path
 from golc.diagnostics import Findings, Source, UserError
 from golc.runtime.rcxsim.world.floor import Floor, Line, Patch, Rectangle, Spot, Station, pushed_out
 from golc.runtime.rcxsim.world.geometry import Pose, Segment, along, length_of, needed, segments, smooth
-from golc.runtime.rcxsim.world.people import Cue, PutAt
+from golc.runtime.rcxsim.world.people import Cue, Names, PutAt
 from golc.runtime.rcxsim.world.robot import LEVELS, LightSensor, Robot, RotationSensor, Sensor, TouchSensor
 from golc.runtime.rcxsim.world.scene import Scene, pose_at_station
-from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, Names, read_line
+from golc.runtime.rcxsim.world.script import BRICK_BUTTONS, read_line
 from golc.runtime.rcxsim.world.tables import FURTHEST, Table, read_tables
 from golc.syntax.text import read_source
 
@@ -53,7 +53,8 @@ def _scene(root: Table) -> Scene:
     floor = _floor(root)
     sensors = {PORTS.index(table.name): _sensor(table) for table in _named(root, "sensors", PORTS)}
     robot = _robot(root.table("robot", needed=True), floor, sensors)
-    return Scene(floor, robot, _script(root.table("people"), _buttons(root), floor))
+    names = Names(_buttons(root), floor.stations)
+    return Scene(floor, robot, _script(root.table("people"), names), names)
 
 
 def _floor(root: Table) -> Floor:
@@ -232,8 +233,7 @@ def _buttons(root: Table) -> list[str]:
     return found
 
 
-def _script(table: Table, buttons: list[str], floor: Floor) -> tuple[Cue, ...]:
-    names = Names(buttons, floor.stations)
+def _script(table: Table, names: Names) -> tuple[Cue, ...]:
     lines = [read_line(text, where, names, table.findings) for text, where in table.texts("script")]
     table.finish()
     return tuple(line for line in lines if line is not None)

@@ -778,3 +778,10 @@ def other_axiom(n: station):
 #! 20+7 GL143 `n` has the type that the fluent gives it
 #! help: leave the annotation out
     after(go(n), True)
+
+
+@theory.goal
+def g_each(n: station):
+#! 12+10 GL143 `n` is a parameter, and no goal has any
+#! help: write `… for n in station` in it; with a default it is a constant of Python
+    return free(n)

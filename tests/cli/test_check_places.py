@@ -1,0 +1,112 @@
+"""Ten mistakes in one file are shown in one run of ``golc check``, in their order and their places, in every format."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable
+from pathlib import Path
+from urllib.parse import unquote
+
+import pytest
+
+from golc.cli import invoke
+
+LINES = [
+    "domain yard",
+    'const greeting = "日本" + 1',  # a wide string
+    "type bay = 1..4",
+    "fluent at: bya = 1",
+    "fluent free: bool == true",
+    'fluent full = "場所" = hall',  # behind wide characters
+    "action go(to: bay):",
+    "    poss\tfull and\tfree2",  # behind tabs
+    "    causes at2 := to",
+    "action rest:",
+    "    causes full := 3",
+    "exog push:",
+    "    causes full := not ful",
+    'define sign := "e\u0301" = "→" and fulll',  # behind a combining character
+    "proc control:",
+    "    rest",
+    "    restt",  # the last line
+]
+PLACES = [
+    ("GL016", 2, 18, 22),
+    ("GL014", 4, 12, 15),
+    ("GL005", 5, 19, 21),
+    ("GL012", 6, 22, 26),
+    ("GL012", 8, 19, 24),
+    ("GL012", 9, 12, 15),
+    ("GL016", 11, 20, 21),
+    ("GL012", 13, 24, 27),
+    ("GL012", 14, 31, 36),
+    ("GL013", 17, 5, 10),
+]
+"""Code, line, column and end of each mistake, counted in characters from 1."""
+
+MARKED = ['"日本"', "bya", "==", "hall", "free2", "at2", "3", "ful", "fulll", "restt"]
+
+Read = Callable[[str], list[tuple[str, int, int, int]]]
+
+
+def from_json(out: str) -> list[tuple[str, int, int, int]]:
+    spans = [(finding["code"], finding["span"]) for finding in json.loads(out)["findings"]]
+    return [(code, span["line"], span["column"], span["end_column"]) for code, span in spans]
+
+
+def from_sarif(out: str) -> list[tuple[str, int, int, int]]:
+    (run,) = json.loads(out)["runs"]
+    assert run["columnKind"] == "unicodeCodePoints"
+    regions = [(found["ruleId"], found["locations"][0]["physicalLocation"]["region"]) for found in run["results"]]
+    assert [region["snippet"]["text"] for _, region in regions] == MARKED
+    return [(code, region["startLine"], region["startColumn"], region["endColumn"]) for code, region in regions]
+
+
+def from_github(out: str) -> list[tuple[str, int, int, int]]:
+    pattern = re.compile(r"::error file=yard\.gl,line=(\d+),endLine=\d+,col=(\d+),endColumn=(\d+),title=(GL\d{3})")
+    found = [match.groups() for line in out.splitlines() if (match := pattern.match(unquote(line)))]
+    return [(code, int(line), int(column), int(end)) for line, column, end, code in found]
+
+
+def from_text(out: str) -> list[tuple[str, int, int, int]]:
+    """The end is where the marks end, which are as wide as what is marked."""
+    found: list[tuple[str, int, int, int]] = []
+    for block in re.split(r"\n\n(?=error)", out.strip()):
+        lines = block.split("\n")
+        code, place = re.findall(r"\[(GL\d{3})\]", lines[0])[0], lines[1].rpartition("--> yard.gl:")[2]
+        line, column = map(int, place.split(":"))
+        source, marks = lines[3].split("| ", 1)[1], lines[4].split("| ", 1)[1]
+        assert shown(source)[marks.index("^") : marks.rindex("^") + 1] == shown(MARKED[len(found)])
+        found.append((code, line, column, column + len(MARKED[len(found)])))
+    return found
+
+
+def shown(text: str) -> str:
+    """One character for each column of a terminal."""
+    wide = "".join(character + character if character > "\u3000" else character for character in text)
+    return wide.replace("\u0301", "")
+
+
+@pytest.mark.parametrize("end", ["\n", "\r\n"], ids=["LF", "CRLF"])
+@pytest.mark.parametrize("last", [True, False], ids=["ended", "open"])
+@pytest.mark.parametrize(
+    ("form", "read"),
+    [("text", from_text), ("json", from_json), ("sarif", from_sarif), ("github", from_github)],
+    ids=["text", "json", "sarif", "github"],
+)
+def test_ten_mistakes_are_shown_in_order_and_in_place(
+    form: str,
+    read: Read,
+    last: bool,
+    end: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("yard.gl").write_bytes((end.join(LINES) + (end if last else "")).encode())
+    assert invoke(["check", "--format", form, "yard.gl"]) == 1
+    out, err = capsys.readouterr()
+    assert read(out) == PLACES
+    assert err.startswith("checked 1 file: 10 errors")

@@ -1,0 +1,136 @@
+"""What is done with each input; whatever raises, ends as a bug or takes too long is a fault of golc."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import json
+import random
+import re
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+from golc.cli import invoke
+from golc.diagnostics import Findings, Severity, Source, UserError
+from golc.loading import Examined, examine
+from golc.rendering import render, to_json
+from golc.reporting import sarif
+from golc.reporting.github import annotation
+from golc.reporting.ignores import heed
+from golc.syntax.format import formatted
+from golc.syntax.text import read_source
+
+FORMATS = ("text", "json", "sarif", "github")
+FORMATS_OF_PAGES = ("text", "latex")
+BUG = 70
+"""How a command ends that failed in a way nobody thought of."""
+
+
+class FaultError(Exception):
+    """Something that golc must not do, though it raised nothing."""
+
+
+class Clock:
+    """Says which stage begins, and how many seconds of processor time each has taken."""
+
+    def __init__(self, say: Callable[[str], None]) -> None:
+        self.times: dict[str, float] = {}
+        self._say = say
+
+    @contextlib.contextmanager
+    def stage(self, name: str) -> Iterator[None]:
+        self._say(name)
+        began = time.process_time()
+        try:
+            yield
+        except Exception as error:
+            error.add_note(f"stage {name}")
+            raise
+        finally:
+            self.times[name] = max(self.times.get(name, 0), time.process_time() - began)
+
+
+def every_stage(path: Path, rng: random.Random, clock: Clock) -> Examined:
+    """Examine, show, lay out and, if it is a theory, explain, plan, test and compile a file."""
+    with clock.stage("examine"):
+        examined = examine(path, proofs=True)
+    with clock.stage("show"):
+        _show(examined)
+    with clock.stage("fmt"):
+        _lay_out(path)
+    if rng.random() < 0.02:
+        with clock.stage("check"):
+            _run(
+                [
+                    "check",
+                    "--format",
+                    rng.choice(FORMATS),
+                    *rng.choice(([], ["--no-proofs"], ["--reachable"])),
+                    str(path),
+                ]
+            )
+    if examined.theory is not None:
+        for command in _commands(path, examined, rng):
+            with clock.stage(command[0]):
+                _run(command)
+    return examined
+
+
+def _show(examined: Examined) -> None:
+    if examined.theory is None and all(finding.severity is not Severity.ERROR for finding in examined.findings):
+        raise FaultError("no theory, and no error that says why")
+    found = heed(examined, True)
+    for finding in found:
+        span = finding.span
+        if not 0 <= span.start <= span.end <= len(span.source.text) or not finding.message:
+            raise FaultError(f"no place or no message: {finding}")
+        for color in (False, True):
+            render(finding, color)
+        annotation(finding)
+        json.dumps(to_json(finding))
+    json.dumps(sarif.log(found, {"errors": 0, "warnings": 0, "questions": 0, "undecided": 0}))
+
+
+def _lay_out(path: Path) -> None:
+    findings = Findings()
+    try:
+        text = formatted(read_source(path), findings)
+    except UserError:
+        return
+    if text is None:
+        return
+    again = formatted(Source("laid out", text), findings)
+    if again != text:
+        raise FaultError("the canonical layout is laid out differently")
+
+
+def _commands(path: Path, examined: Examined, rng: random.Random) -> Iterator[list[str]]:
+    """Command lines for a theory, with goals and programs of it and small limits."""
+    theory = examined.theory
+    assert theory is not None
+    names = [*theory.fluents, *theory.actions, *theory.procedures, *theory.definitions, *theory.statics, *theory.types]
+    for form in FORMATS_OF_PAGES:
+        for name in rng.sample(names, min(2, len(names))):
+            yield ["explain", str(path), name, "--format", form]
+    limits = ["--nodes", "150", "--time", "2", "--steps", "6"]
+    goals = [
+        *theory.goals,
+        "false",
+        *re.findall(r"(?:poss|when|if|while|until|where|test) (.*)", examined.sources[0].text),
+    ]
+    yield ["plan", str(path), "--goal", rng.choice(goals), *limits]
+    for name in rng.sample([*theory.procedures], min(2, len(theory.procedures))):
+        way = rng.choice((["--all", "5"], ["--first"], ["--shortest"], ["--cheapest"], ["--all", "5", "--conformant"]))
+        yield ["plan", str(path), name, *way, *limits, "--format", rng.choice(("text", "json", "dot"))]
+    yield ["test", str(path)]
+    if theory.devices:
+        yield ["gen-nqc", str(path), "-o", str(path.parent / "build"), "--target", rng.choice(("rcx", "rcx2"))]
+
+
+def _run(arguments: list[str]) -> None:
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        code = invoke(arguments)
+    if code == BUG or "Traceback" in err.getvalue():
+        raise FaultError(f"golc {' '.join(arguments)}\n{err.getvalue()}")
