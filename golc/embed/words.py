@@ -122,11 +122,11 @@ def _quantifier(kind: Any) -> Operator:
         *ranges, body = parts
         variables = bound(body, len(ranges), span)
         binders = tuple(binder(each, over, span) for each, over in zip(variables, ranges, strict=True))
-        condition, meant = (
-            None if each is None else of_variables(expr(each(*variables), span), variables, span)
-            for each in (where, body)
-        )
-        return Term(tree.Quantifier(kind, binders, condition, meant, span=span))
+
+        def of(function: Callable[..., object]) -> tree.Expr:
+            return of_variables(expr(function(*variables), span), variables, span)
+
+        return Term(tree.Quantifier(kind, binders, None if where is None else of(where), of(body), span=span))
 
     return Operator(kind, build)
 

@@ -31,7 +31,7 @@ T = TypeVar("T")
 def failure(error: BaseException) -> str:
     """An exception in one line, its type and what it says."""
     said = traceback.TracebackException.from_exception(error)
-    said.__notes__ = None  # type: ignore[attr-defined]
+    said.__notes__ = None
     return " ".join([*said.format_exception_only()][-1].split())
 
 

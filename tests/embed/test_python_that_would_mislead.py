@@ -224,3 +224,28 @@ def test_a_file_may_change_the_path_of_python(text_of: Text) -> None:
     text_of(THEORY + "import sys\nsys.path.clear()\n")
 
     assert sys.path == path
+
+
+def test_the_body_of_a_function_does_not_see_the_names_of_the_class_around_it(text_of: Text) -> None:
+    text = text_of(
+        THEORY + "N = 1\nclass Lamps:\n    N = 2\n    @theory.define\n    def d():\n        return power == N\n"
+    )
+
+    assert text.endswith("define d := power = 1\n")
+
+
+@pytest.mark.parametrize(
+    ("code", "place", "message"),
+    [
+        (
+            "import json\ntheory.define(json.dumps)\n",
+            "theory.define(json.dumps)",
+            "only a function written with `def` can be translated",
+        ),
+        ("@theory.axiom(3)\ndef a():\n    pass\n", "theory.axiom(3)", "a Python value of type `int` cannot be a name"),
+    ],
+)
+def test_a_decorator_says_what_it_cannot_take(wrong_with: Wrong, code: str, place: str, message: str) -> None:
+    (found,) = wrong_with(THEORY + code)
+
+    assert (found.span.text, found.message) == (place, message)

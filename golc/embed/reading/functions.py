@@ -16,7 +16,7 @@ from typing import Any
 from golc.diagnostics import Code, Label, Source, Span
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
-from golc.embed.places import caller, calling_frame, line_span, offset, source_of, span_of, tree_of
+from golc.embed.places import caller, calling_frame, offset, source_of, span_of, tree_of
 from golc.theory.suggest import did_you_mean
 
 ABSENT = object()
@@ -102,7 +102,10 @@ class Function:
                 return cells[name].cell_contents
             except ValueError:
                 return ABSENT
-        for scope in (self.frame.f_locals, self.function.__globals__, vars(builtins)):
+        scopes = [self.function.__globals__, vars(builtins)]
+        # What is bound around the function is meant by annotations; for Python itself its body does not see a class.
+        scopes.insert(len(scopes) if name in self.seen else 0, self.frame.f_locals)
+        for scope in scopes:
             if name in scope:
                 return scope[name]
         return ABSENT
@@ -155,13 +158,12 @@ def translated(function: object) -> Function:
         raise meaningless(f"the source of `{function.__name__}` is not to be found", span, help_)
     node = _definition(source, code)
     if node is None:
-        raise meaningless(
-            "only a function written with `def` can be translated", line_span(source, code.co_firstlineno)
-        )
+        raise meaningless("only a function written with `def` can be translated", span)
     made = Function(function, source, node, calling_frame())
     _check_head(made)
     made.fixed.update(_defaults(made))
-    made.seen.update({name: made.lookup(name) for name in _names(code)})
+    made.seen.update(dict.fromkeys(_names(code), ABSENT))
+    made.seen.update({name: made.lookup(name) for name in made.seen})
     return made
 
 
