@@ -18,7 +18,7 @@ from golc.proofs.slices import dependence, sliced
 from golc.proofs.smallest import rank, reduced
 from golc.proofs.symbols import NotDecidedError
 from golc.situation.dynamics import Dynamics
-from golc.situation.worlds import ASK, Readable, State, survey
+from golc.situation.worlds import ASK, Readable, State, TooManyCasesError, survey
 from golc.theory.reading import fluents_read
 from golc.theory.reading import reached as reached_terms
 from golc.theory.terms import Epistemic
@@ -68,7 +68,7 @@ class Among:
         started = time.monotonic()
         try:
             found = self._narrower(question, small, started + self._left)
-        except NotDecidedError:
+        except (NotDecidedError, TooManyCasesError):
             return answer
         finally:
             self._left -= time.monotonic() - started
@@ -103,8 +103,12 @@ class Among:
     def _is_too_much(self, question: Question) -> bool:
         """Whether it takes too long to evaluate, or depends on what is known after an action."""
         after = any(isinstance(step, Afterwards) and self._is_about_knowledge(step) for step in question.steps)
-        terms = [term for step in question.steps for term in terms_of(self._theory, step)]
-        return after or self._effort.of(terms) > MOST_EFFORT
+        effort = 0
+        for step in question.steps:
+            effort += self._effort.of(terms_of(self._theory, step))
+            if isinstance(step, Afterwards):
+                effort += self._effort.of_action(self._theory.actions[step.action])
+        return after or effort > MOST_EFFORT
 
     def _search(
         self, question: Question, states: list[Reached], small: bool, deadline: float
