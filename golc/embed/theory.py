@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import FunctionType
-from typing import Any, overload
+from typing import Any, TypeVar, overload
 
 from golc.diagnostics import Code, Span
 from golc.embed import words
@@ -19,11 +19,12 @@ from golc.embed.reading.functions import translated
 from golc.embed.reading.programs import Programs
 from golc.embed.reading.scenarios import Scenarios
 from golc.embed.reading.tables import table_of
-from golc.embed.terms import Named, expr
+from golc.embed.terms import Named, Term, expr
 from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
 
 MISSING: Any = object()
+Decorated = TypeVar("Decorated", Named, TypeHandle)
 
 WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
 """The kinds of declarations whose functions have none."""
@@ -106,7 +107,7 @@ class Theory:
                 self._types[made.name] = handle
                 return handle
 
-            return decorated if what is None else decorated(what)
+            return self._waiting(decorated) if what is None else decorated(what)
         ident, span = self._named(what)
         self._needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, span), span=span)
@@ -151,7 +152,7 @@ class Theory:
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Extern(ident, t.parameters(), self._returns(t), file, span=t.function.span)
 
-        return lambda function: self._translate(function, "extern", make, name)
+        return self._waiting(lambda function: self._translate(function, "extern", make, name))
 
     def fluent(
         self,
@@ -223,7 +224,7 @@ class Theory:
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Axiom(head, t.heads(), t.cases(), span=t.function.span)
 
-        return lambda function: self._translate(function, "fluent", make, head.text, "axiom")
+        return self._waiting(lambda function: self._translate(function, "fluent", make, head.text, "axiom"))
 
     def initially(self, condition: object) -> Any:
         """``initially φ``: a constraint on the first situation; with a formula, or a decorator."""
@@ -281,7 +282,7 @@ class Theory:
         def make(t: Translator, _: tree.Ident) -> tree.Declaration:
             return tree.Device(what, called, file, t.settings(), span=t.function.span)
 
-        return lambda function: self._translate(function, "device", make, kind, ("device", name))
+        return self._waiting(lambda function: self._translate(function, "device", make, kind, ("device", name)))
 
     # How it becomes a tree
 
@@ -299,8 +300,26 @@ class Theory:
         make: Callable[[Translator, tree.Ident], tree.Declaration],
     ) -> Any:
         if function is None:
-            return lambda decorated: self._translate(decorated, kind, make, name)
+            return self._waiting(lambda decorated: self._translate(decorated, kind, make, name))
         return self._translate(function, kind, make, name)
+
+    def _waiting(
+        self, decorate: Callable[[Callable[..., Any]], Decorated]
+    ) -> Callable[[Callable[..., Any]], Decorated]:
+        """A decorator; a theory is not complete as long as one waits for its function."""
+        span = caller()
+
+        def nothing() -> tree.Declaration:
+            help_ = "write it with `@` above a function, or give it all that it needs"
+            raise meaningless("this declares nothing", span, help_)
+
+        withdraw = self._parts.expect(nothing)
+
+        def decorated(function: Callable[..., Any]) -> Decorated:
+            withdraw()
+            return decorate(function)
+
+        return decorated
 
     def _translate(
         self,
@@ -353,7 +372,7 @@ class Theory:
             return self._translate(name, what, make)
         if name is not None and not isinstance(name, str):
             raise meaningless(f"the name of this {what} is a string", caller())
-        return lambda function: self._translate(function, what, make, name)
+        return self._waiting(lambda function: self._translate(function, what, make, name))
 
     def _add(self, node: Any, kind: str, heads: tuple[tree.Parameter, ...] = ()) -> Named:
         self._parts.put((SPACES.get(kind, "term"), node.name.text), lambda: node)
@@ -382,7 +401,11 @@ class Theory:
         """A value that is a function of the parameters, for variables with their names."""
         if not isinstance(value, FunctionType):
             return value
-        return value(*words.bound(value, len(heads), span, [head.name.text for head in heads]))
+        variables = words.bound(value, len(heads), span, [head.name.text for head in heads])
+        made = value(*variables)
+        if isinstance(made, Term):
+            words.of_variables(made.node, variables, span)
+        return made
 
     def _returns(self, translator: Translator) -> tree.Type | None:
         annotation = translator.function.node.returns
