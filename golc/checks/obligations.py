@@ -100,7 +100,12 @@ class Obligations:
         """A witness in words: the situation, and the action with its arguments; how the situation is reached."""
         args = witness.variables[: len(action.parameters)]
         verb = "happens" if action.exogenous else "is done"
-        shown = f"for example when {witness} and `{show_call(action.name, args)}` {verb}"
+        done = f"`{show_call(action.name, args)}` {verb}"
+        shown = (
+            f"for example when {witness} and {done}"
+            if witness.fluents
+            else f"for example when {done}, in any situation"
+        )
         if not isinstance(self.prover, Among):
             return (shown,)
         if witness.way is None:

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
 
-from golc.proofs.asking import Asking, Leaf
+from golc.proofs.asking import Asking, Leaf, Situation
 from golc.proofs.cases import Case, explore
-from golc.proofs.domains import Domain
 from golc.proofs.effort import Effort
 from golc.proofs.prover import MOST_CASES, Prover
 from golc.proofs.questions import Afterwards, Asked, Question, Step, Undecided, Witness, terms_of
@@ -23,10 +22,11 @@ from golc.theory.reading import fluents_read
 from golc.theory.reading import reached as reached_terms
 from golc.theory.terms import Epistemic
 from golc.theory.theory import BasicActionTheory
-from golc.theory.types import BOOL, Value
+from golc.theory.types import BOOL
 
 SECONDS = 3.0
-"""How long to look for witnesses among the states, for all questions together."""
+"""How long to go on finding states, and, once more, to look for witnesses among these or those that matter for some
+questions."""
 
 MORE_WITNESSES = 50
 """How many more are looked at in states that take as many actions, for a smaller one."""
@@ -42,7 +42,7 @@ class Among:
         self._first = self._asking.layout.size
         self._effort = Effort(theory)
         self._dynamics = Dynamics(theory)
-        self._states, self._scope = reachable(self._dynamics)
+        self._states, self._scope = reachable(self._dynamics, SECONDS)
         self._slices: dict[frozenset[str], tuple[list[Reached], Scope]] = {}
         effects = [effect for action in theory.actions.values() for effect in action.effects]
         self._changing = frozenset([effect.fluent for effect in effects])
@@ -135,7 +135,7 @@ class Among:
                 return Leaf({}, None)
 
             every: list[tuple[Case, Leaf]] = []
-            for case, found in explore(partial(_Situation, world, self._first, domains), leaf):
+            for case, found in explore(partial(Situation, world, self._first, domains), leaf):
                 every.append((case, found))
                 if len(every) > MOST_CASES or time.monotonic() > deadline:
                     raise NotDecidedError("there are too many cases in the states that can be reached")
@@ -163,31 +163,6 @@ class Among:
     def _is_about_knowledge(self, step: Step) -> bool:
         terms = terms_of(self._theory, step)
         return any(isinstance(part, Epistemic) for part in reached_terms(self._theory, terms))
-
-
-class _Situation(Case):
-    """A world, with variables that are decided while they are read."""
-
-    def __init__(
-        self, world: Readable, first: int, domains: Mapping[int, Domain], decisions: list[tuple[int, int]]
-    ) -> None:
-        super().__init__(domains, decisions)
-        self._world = world
-        self._first = first
-
-    @property
-    def state(self) -> State:
-        """What the agent knows."""
-        return self._world if isinstance(self._world, tuple) else self._world.state
-
-    def __getitem__(self, slot: int) -> Value:
-        slot = int(slot)
-        if slot >= self._first:
-            return super().__getitem__(slot)
-        self.look()
-        if slot not in self.cells:
-            self.cells[slot] = self._world[slot]
-        return self.cells[slot]
 
 
 def _known(steps: tuple[Step, ...]) -> Iterator[Step]:

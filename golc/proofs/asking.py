@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable, Mapping, Sequence
+from collections.abc import Callable, Container, Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -14,6 +14,7 @@ from golc.proofs.symbols import NeedsPythonError
 from golc.situation.branching import Clause, Options
 from golc.situation.compile import Compiler
 from golc.situation.layout import Layout
+from golc.situation.worlds import Readable, State
 from golc.theory.errors import NotExecutedError
 from golc.theory.reading import fluents_read
 from golc.theory.terms import Term, Variable, subterms
@@ -125,14 +126,17 @@ class Asking:
 
     def _after(self, step: Afterwards, case: Case) -> After:
         """The situation after an action, as far as the formula speaks of it."""
-        fluents = fluents_read(self.theory, [step.term])
-        changes: dict[int, Any] = {}
-        for number, effect in enumerate(self.theory.actions[step.action].effects):
+        return After(case, dict(self.changes(step.action, step.env, case, fluents_read(self.theory, [step.term]))))
+
+    def changes(
+        self, action: str, env: tuple[int, ...], case: Case, fluents: Container[str]
+    ) -> Iterator[tuple[int, Any]]:
+        """The slots of some fluents that an action changes, each with its new value or with ``Options``."""
+        for number, effect in enumerate(self.theory.actions[action].effects):
             if effect.fluent in fluents:
-                clause, levels = self._clause(step.action, number)
-                for env in clause.environments(self._values(step.env, levels, case)):
-                    changes.update(clause.changes(case, env))
-        return After(case, changes)
+                clause, levels = self._clause(action, number)
+                for values in clause.environments(self._values(env, levels, case)):
+                    yield from clause.changes(case, values)
 
     def _clause(self, name: str, number: int) -> tuple[Clause, frozenset[int]]:
         """An effect, compiled, and the levels of the variables that matter to it."""
@@ -156,6 +160,31 @@ class _Variables:
 
     def __getitem__(self, level: int) -> Value:
         return self._case[self._first + self._env[level]]
+
+
+class Situation(Case):
+    """A world, with variables that are decided while they are read."""
+
+    def __init__(
+        self, world: Readable, first: int, domains: Mapping[int, Domain], decisions: list[tuple[int, int]]
+    ) -> None:
+        super().__init__(domains, decisions)
+        self._world = world
+        self._first = first
+
+    @property
+    def state(self) -> State:
+        """What the agent knows."""
+        return self._world if isinstance(self._world, tuple) else self._world.state
+
+    def __getitem__(self, slot: int) -> Value:
+        slot = int(slot)
+        if slot >= self._first:
+            return super().__getitem__(slot)
+        self.look()
+        if slot not in self.cells:
+            self.cells[slot] = self._world[slot]
+        return self.cells[slot]
 
 
 class After:

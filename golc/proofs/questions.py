@@ -85,7 +85,7 @@ class Witness:
     way: tuple[str, ...] | None = None
 
     def __str__(self) -> str:
-        return ", ".join(f"{name} = {show(value)}" for name, value in self.fluents.items()) or "any situation"
+        return ", ".join(f"{name} = {show(value)}" for name, value in self.fluents.items())
 
 
 @dataclass(frozen=True)

@@ -8,18 +8,22 @@ world. An action whose effects fail is an error of the theory, as is one that br
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 from typing import Any, TypeAlias
 
 from golc.diagnostics import Code, ProgramError, counted
+from golc.proofs.asking import Asking, Situation
 from golc.proofs.cases import Case, explore
 from golc.proofs.domains import Domain, Some, any_of, domain
 from golc.proofs.effort import Effort
+from golc.proofs.questions import Asked, Question
 from golc.proofs.symbols import NotDecidedError, Range, Symbol
+from golc.situation.branching import Options
 from golc.situation.dynamics import Args, Dynamics
-from golc.situation.worlds import State, TooManyCasesError, Worlds
+from golc.situation.layout import World
+from golc.situation.worlds import ASK, State, TooManyCasesError, Worlds
 from golc.theory.errors import NotExecutedError
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Variable, subterms
@@ -36,12 +40,6 @@ MOST_VALUES = 2_000_000
 
 MOST_EFFORT = 200_000
 """Parts of terms that all actions and invariants together may have, each time that they are evaluated."""
-
-FEW = (0, 1, 2, -1)
-"""Arguments that are tried where all integers cannot be."""
-
-SECONDS = 3.0
-"""How long to go on finding states."""
 
 
 @dataclass(frozen=True)
@@ -93,7 +91,7 @@ class Reached:
         return tuple([step.by for step in self.steps()])
 
 
-def reachable(dynamics: Dynamics, seconds: float = SECONDS) -> tuple[list[Reached], Scope]:
+def reachable(dynamics: Dynamics, seconds: float) -> tuple[list[Reached], Scope]:
     """The states that can be reached, those that take fewer actions first, as far as they can be gone through."""
     return _Search(dynamics, time.monotonic() + seconds).run()
 
@@ -162,12 +160,21 @@ class _Search:
                     if Range not in map(type, domains):
                         raise
                     self._not_all(f"`{action.name}` has more instances than can be gone through: {error}")
-                    instances[action.name] = [Some(FEW) if isinstance(of, Range) else of for of in domains]
+                    instances[action.name] = [_few(of) if isinstance(of, Range) else of for of in domains]
                     self._follow(here, action, instances[action.name], holds)
 
     def _follow(self, here: Reached, action: Action, domains: list[Domain], holds: list[Condition]) -> None:
         """What the instances of an action lead to."""
-        for case, successors in explore(partial(Case, domains), partial(self._successors, here.state, action)):
+        every: Iterator[tuple[Case, list[tuple[str, Args, State]]]]
+        if Range in map(type, domains):
+            first = self.dynamics.layout.size
+            if isinstance(here.state, Worlds):
+                raise NotDecidedError("it is not known in which state it happens")
+            situation = partial(Situation, here.state, first, dict(enumerate(domains, start=first)))
+            every = explore(situation, partial(self._case_by_case, here.state, action))
+        else:
+            every = explore(partial(Case, domains), partial(self._successors, here.state, action))
+        for case, successors in every:
             if not case.whole:
                 self._not_all(f"`{action.name}` has more instances than can be gone through")
             if time.monotonic() > self.deadline:
@@ -185,12 +192,35 @@ class _Search:
 
     def _successors(self, state: State, action: Action, case: Case) -> list[tuple[str, Args, State]]:
         """The states after an action, each with the action as text, and its arguments."""
-        parameters = range(len(action.parameters))
-        args = tuple([case[slot] for slot in parameters])
-        found = [(sensed, _plain(after)) for sensed, after in self._after(state, action, args)]
-        shown = tuple([case.value(slot) for slot in parameters])
-        call = self.dynamics.call(action.name, shown) if found else ""
-        return [(f"`{call}`{sensed}", shown, after) for sensed, after in found]
+        args = tuple([case[slot] for slot in range(len(action.parameters))])
+        found = self._after(state, action, args)
+        call = self.dynamics.call(action.name, args) if found else ""
+        return [(f"`{call}`{sensed}", args, after) for sensed, after in found]
+
+    def _case_by_case(self, state: World, action: Action, case: Situation) -> list[tuple[str, Args, State]]:
+        """The same for integers without end, of which only those cases are told apart that make a difference."""
+        asking, env = self.asking, tuple(range(len(action.parameters)))
+        poss = Question(action.parameters, tuple([Asked(condition, env) for condition in action.preconditions]))
+        after = [*state]
+        changed: dict[int, Value] = {}
+        try:
+            if not asking.verdict(poss, case):
+                return []
+            for slot, value in asking.changes(action.name, env, case, self.dynamics.layout.places):
+                after[int(slot)] = _known(value)
+                if changed.setdefault(int(slot), after[int(slot)]) != after[int(slot)]:
+                    return []
+        except ProgramError as error:
+            _tell(error)
+            return []
+        domains, first = asking.domains_of(poss), len(state)
+        args = tuple([case.value(n) if n in case.cells else any_of(domains[n]) for n in range(first, len(domains))])
+        return [(f"`{self.dynamics.call(action.name, args)}`", args, tuple(after))]
+
+    @cached_property
+    def asking(self) -> Asking:
+        """Evaluates actions case by case."""
+        return Asking(self.dynamics.theory, ASK)
 
     def _after(self, state: State, action: Action, args: Args) -> list[tuple[str, State]]:
         """What an action leads to if it can happen and its effects succeed, each with what is sensed in words."""
@@ -231,6 +261,12 @@ def _domains(action: Action) -> list[Domain]:
     return [of if level in levels else (any_of(of),) for level, of in enumerate(domains)]
 
 
+def _few(range_: Range) -> Some:
+    """A few integers, where not all can be gone through."""
+    near = range_.nearest_to_zero()
+    return Some(tuple([each for each in (near, near + 1, near + 2, near - 1) if range_.has(each)]))
+
+
 def _is_true(condition: Condition, state: State) -> bool:
     try:
         return bool(condition(state, ()))
@@ -251,17 +287,10 @@ def _size(state: State) -> int:
     return sum(1 + (len(value) if isinstance(value, tuple | frozenset) else 0) for row in rows for value in row)
 
 
-def _plain(state: State) -> State:
-    """A state without integers of which only an interval is known."""
-    if isinstance(state, Worlds):
-        if any(isinstance(value, Symbol) for value in state.base):
-            raise NotDecidedError("any integer becomes the value of a fluent")
-        return state
-    return tuple([_known(value) for value in state])
-
-
 def _known(value: Value) -> Value:
     match value:
+        case Options():
+            raise NotDecidedError("it is not known what it leads to")
         case Symbol():
             return int(value)
         case tuple():

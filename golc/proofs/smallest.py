@@ -203,5 +203,5 @@ def _fits(value: Value, within: Value | Range) -> bool:
     """Whether a value lies in one side of a box."""
     if isinstance(within, Range):
         assert isinstance(value, int)
-        return (within.low is None or within.low <= value) and (within.high is None or value <= within.high)
+        return within.has(value)
     return value == within

@@ -37,6 +37,10 @@ class Range:
         self.low = low
         self.high = high
 
+    def has(self, value: int) -> bool:
+        """Whether an integer is one of them."""
+        return (self.low is None or self.low <= value) and (self.high is None or value <= self.high)
+
     def nearest_to_zero(self) -> int:
         """The value that a reader finds simplest."""
         if self.low is not None and self.low > 0:

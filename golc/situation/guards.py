@@ -159,7 +159,7 @@ def index(term: Operation) -> Callable[[tuple[Value, ...], int], Value]:
     def index(whole: tuple[Value, ...], place: int) -> Value:
         if not 0 <= place < len(whole):
             raise errors.index_outside(term.span, place, len(whole))
-        return whole[place]
+        return whole[int(place)]  # Python takes what stands for all integers (`golc.proofs`) for 0
 
     return index
 

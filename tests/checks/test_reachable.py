@@ -27,6 +27,11 @@ exog tick:
 """
 
 
+@pytest.fixture(autouse=True)
+def time_enough(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("golc.proofs.among.SECONDS", 600)
+
+
 def examined(tmp_path: Path, text: str) -> Examined:
     path = tmp_path / "trial.gl"
     path.write_text(text)
@@ -154,6 +159,24 @@ def test_parameters_without_end_that_make_few_states(tmp_path: Path, parameter: 
     poss = "0 <= n and n <= 5" if effect == "x := n" else "true"
     text = SWITCH.replace("x < 2", "x < 1") + f"\nexog far({parameter}):\n    poss {poss}\n    causes {effect}\n"
     assert str(examined(tmp_path, text).scope) == scope
+
+
+def test_an_integer_without_end_that_is_an_argument_of_a_fluent(tmp_path: Path) -> None:
+    text = f"{SWITCH}\nfluent called(n: 4..6): bool = false\nexog call(n: int):\n    causes called(n) := true\n"
+    done = examined(tmp_path, text)
+    assert str(done.scope) == "in all 32 states that can be reached"
+    assert [finding.notes for finding in done.findings] == [
+        ("for example when `call(0)` happens, in any situation", "this is so at first")
+    ]
+
+
+def test_a_few_of_many_arguments_are_tried(tmp_path: Path) -> None:
+    text = "domain trial\n\nfluent y: 7..9000 = 8000\n\nexog put(n: 7..9000):\n    causes y := n\n"
+    done = examined(tmp_path, f"{text}\naction drop:\n    causes y := y - 2\n")
+    assert done.scope is not None and not done.scope.whole
+    assert [finding.notes for finding in done.findings] == [
+        ("for example when y = 7 and `drop` is done", "this is reached by `put(7)`")
+    ]
 
 
 @pytest.mark.parametrize(

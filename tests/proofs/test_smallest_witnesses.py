@@ -61,6 +61,7 @@ def shown(formula: str, fails: bool = False, more: str = "") -> dict[str, object
         ("len(seen) > 1 and red not in seen", {"seen": frozenset({"green", "blue"})}),
         ("len(route) > 0 and first(route) > 1", {"route": (2,)}),
         ("fuel > 0.5", {"fuel": 1}),
+        ("len(route) = 2 and y >= 0 and route[y] = 1 and first(route) = 0", {"route": (0, 1), "y": 1}),
     ],
 )
 def test_a_formula_is_made_true_by_the_fewest_fluents_and_the_smallest_values(
