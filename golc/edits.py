@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from golc.diagnostics import Diagnostic, Edit
 
@@ -26,6 +26,15 @@ def moved(place: int, edits: Iterable[Edit]) -> int:
         elif start < place:
             return start + shift + len(edit.text)
     return place + shift
+
+
+def written(edits: Iterable[Edit]) -> Iterator[tuple[int, int]]:
+    """Where in the new text begins and ends what each edit has written."""
+    shift = 0
+    for edit in in_order(edits):
+        start = edit.span.start + shift
+        yield start, start + len(edit.text)
+        shift += len(edit.text) - (edit.span.end - edit.span.start)
 
 
 def compatible(findings: Iterable[Diagnostic]) -> list[Diagnostic]:

@@ -7,6 +7,7 @@ import re
 
 from golc.diagnostics import Code, Span
 from golc.embed.errors import refused
+from golc.embed.terms import described
 from golc.syntax import tree
 from golc.syntax.words import RESERVED
 
@@ -41,7 +42,7 @@ def python_name(name: str) -> str:
 def new_name(text: object, span: Span, used: bool = False) -> tree.Ident:
     """A name that comes into being at a place, or is only ``used`` there. Raises ``Refused`` if it cannot be one."""
     if not isinstance(text, str) or not _NAME.fullmatch(text):
-        what = f"`{text}`" if isinstance(text, str) else f"a {type(text).__name__}"
+        what = f"`{text}`" if isinstance(text, str) else described(text)
         help_ = "begin it with a letter and go on with letters, digits and `_`"
         raise refused(Code.PYTHON_MEANING, f"{what} cannot be a name", span, help_)
     if text in RESERVED and not used:

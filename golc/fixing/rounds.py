@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Generic, TypeVar
 
 from golc.diagnostics import Diagnostic, Edit, Severity, Source, Span
-from golc.edits import compatible, edits_of, in_order, moved
+from golc.edits import compatible, edits_of, in_order, moved, written
 from golc.fixing.texts import Texts
 from golc.syntax.layout import split
 
@@ -88,7 +88,7 @@ def _worse(before: Looked, fixed: list[Diagnostic], after: Looked) -> tuple[bool
         if finding.severity is Severity.ERROR and _place(finding, ()) not in known:
             its = _of(finding.span.source, edits)
             syntax = finding.code.code <= LAST_OF_SYNTAX
-            if _written(finding.span, its) or (syntax and not _in_same_declaration(finding.span, its)):
+            if _in_written(finding.span, its) or (syntax and not _in_same_declaration(finding.span, its)):
                 return True, finding
     return False, None
 
@@ -109,14 +109,12 @@ def _line(finding: Diagnostic) -> tuple[str, str, str, str]:
     return finding.code.code, finding.message, span.source.name, span.source.line(span.line)
 
 
-def _written(span: Span, edits: tuple[Edit, ...]) -> bool:
+def _in_written(span: Span, edits: tuple[Edit, ...]) -> bool:
     """Whether a span of the new text begins in what the edits have written."""
-    ends = [moved(edit.span.end, edits) for edit in edits]
-    return any(end - len(edit.text) <= span.start < end for edit, end in zip(edits, ends, strict=True))
+    return any(start <= span.start < end for start, end in written(edits))
 
 
 def _in_same_declaration(span: Span, edits: tuple[Edit, ...]) -> bool:
     """Whether one of the edits stands in the declaration of a span of the new text."""
-    ends = [moved(edit.span.end, edits) for edit in edits]
     chunks = [chunk for chunk in split(span.source.text) if chunk.start <= span.start <= chunk.end]
-    return any(chunk.start <= end <= chunk.end for chunk in chunks for end in ends)
+    return any(chunk.start <= end <= chunk.end for chunk in chunks for _, end in written(edits))

@@ -101,6 +101,15 @@ class Encoder(Values):
         self.shortened |= short
         return value
 
+    def integers(self, variables: Env) -> list[Any]:
+        """The unknown integers among the fluents that were read, and some variables."""
+        found = [*[value for _, value, _ in self._read.values()], *variables]
+        return [
+            value.number
+            for value in found
+            if isinstance(value.kind, int) and value.kind == NUMBER and z3.is_int(value.number)
+        ]
+
     def values(self, model: Any) -> dict[tuple[str, tuple[Value, ...]], Value]:
         """The values of the ground fluents that were read, in a model of the solver."""
         found = {}

@@ -87,7 +87,7 @@ class Prover:
             undecided = undecided or Undecided("a value is asked for that cannot be enumerated")
         if any(leaf.is_witness for _, leaf in found):
             return self._witness(question, domains, found, small, all_=undecided is None)
-        return undecided and self._solved(question, domains, undecided)
+        return undecided and self._solved(question, domains, undecided, small)
 
     def _cases(self, question: Question, domains: Sequence[Domain]) -> Iterator[tuple[Case, Leaf]]:
         """Whether what is asked is so, case by case; of many cases some by chance before the rest in order."""
@@ -105,14 +105,16 @@ class Prover:
         finally:
             self._looks -= allowed - budget.left
 
-    def _solved(self, question: Question, domains: list[Domain], why: Undecided) -> Witness | Undecided | None:
+    def _solved(
+        self, question: Question, domains: list[Domain], why: Undecided, small: bool
+    ) -> Witness | Undecided | None:
         """What a solver answers, if there is one; a witness of its is tried out."""
         try:
             from golc.proofs.solver import solve
         except ImportError:
             return replace(why, help="install `golc[smt]`, which brings a solver")
         try:
-            found = solve(self.theory, question)
+            found = solve(self.theory, question, small)
         except NotDecidedError as error:
             return Undecided(f"{why.reason}; {error}")
         if found is None:
@@ -124,7 +126,7 @@ class Prover:
         try:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
                 if leaf.is_witness:
-                    return self._witness(question, domains, [(case, leaf)], small=True)
+                    return self._witness(question, domains, [(case, leaf)], small)
         except NotDecidedError as error:
             return Undecided(f"{why.reason}; {error}")
         return Undecided(f"{why.reason}; what the solver says is not confirmed")

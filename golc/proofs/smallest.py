@@ -24,6 +24,9 @@ MOST_TESTS = 400_000
 MOST_LEAVES = 2_000
 """How many cases are told apart to see which of the values in one of them matter."""
 
+MOST_LEFT_OUT = 50
+"""Of how many values it is tried to leave them out one by one."""
+
 FEW_LOOKS = 50_000
 """How often slots are looked at meanwhile."""
 
@@ -59,24 +62,45 @@ def smallest(
 
 
 def reduced(asking: Asking, question: Question, values: Mapping[int, Value], answer: Hashable) -> set[int] | None:
-    """Of the slots that make what is asked so, with those of all variables that matter, the fewest that suffice for the
-    same answer. None if it takes too long."""
+    """Of the slots that make what is asked so, the fewest that suffice for the same answer, or, where that takes too
+    long, as many as can be left out one by one. None if nothing is known of that."""
     first = asking.layout.size
     domains = asking.domains_of(question)
     for slot in range(first, len(domains)):
         domains[slot] = (values[slot] if slot in values else any_of(domains[slot]),)
+    leaves = _leaves(asking, question, domains)
+    if leaves is not None:
+        alike = [Leaf(leaf.box, leaf.answer if leaf.answer == answer else None) for leaf in leaves]
+        found = smallest(alike, domains, first, values)
+        if found is not None:
+            return {*found}
+
+    def suffice(slots: set[int]) -> bool:
+        some = [(values[slot],) if slot in slots else of for slot, of in enumerate(domains)]
+        leaves = _leaves(asking, question, some)
+        return leaves is not None and all(leaf.answer == answer for leaf in leaves)
+
+    kept = {slot for slot in values if slot < first}
+    if len(kept) > MOST_LEFT_OUT or not suffice(kept):
+        return None
+    for slot in sorted(kept, reverse=True):
+        if suffice(kept - {slot}):
+            kept.remove(slot)
+    return kept
+
+
+def _leaves(asking: Asking, question: Question, domains: Sequence[Domain]) -> list[Leaf] | None:
+    """All cases of a question, whether or not the invariants hold; none if they cannot be told apart."""
     leaves: list[Leaf] = []
+    new = partial(Case, domains, budget=Budget(FEW_LOOKS))
     try:
-        for case, leaf in explore(
-            partial(Case, domains, budget=Budget(FEW_LOOKS)), partial(asking.leaf, question, assuming=False)
-        ):
+        for case, leaf in explore(new, partial(asking.leaf, question, assuming=False)):
             if case.open or not case.whole or len(leaves) == MOST_LEAVES:
                 return None
-            leaves.append(Leaf(leaf.box, leaf.answer if leaf.answer == answer else None))
+            leaves.append(leaf)
     except NotDecidedError:
         return None
-    found = smallest(leaves, domains, first, values)
-    return None if found is None else {*found}
+    return leaves
 
 
 @dataclass

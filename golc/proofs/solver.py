@@ -9,10 +9,10 @@ import z3
 
 from golc.proofs.effort import Effort
 from golc.proofs.encode import MOST_TERMS, TOO_LONG, Encoder, Env, Read
-from golc.proofs.encoded import Encoded, Formula, both, either, negated, same, selected
+from golc.proofs.encoded import Encoded, Formula, both, either, negated, same, selected, total
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, terms_of
 from golc.proofs.symbols import NotDecidedError
-from golc.proofs.values import LONGEST
+from golc.proofs.values import LONGEST, evaluated
 from golc.theory.fitting import strip_optional
 from golc.theory.terms import Binder, Choice, Display, Literal
 from golc.theory.theory import BasicActionTheory, Effect
@@ -20,6 +20,9 @@ from golc.theory.types import Value
 
 PATIENCE = 2_000
 """Milliseconds for one question."""
+
+TRIES = 20
+"""How often a smaller situation is looked for, each time for a part of the time."""
 
 LONGEST_INVARIANT = 3_000
 """How many terms an invariant may have; longer ones are left out, and a witness is tried out with them."""
@@ -30,8 +33,10 @@ Found = tuple[Mapping[tuple[str, tuple[Value, ...]], Value], Sequence[Value]]
 """The values of ground fluents, and those of the question's variables."""
 
 
-def solve(theory: BasicActionTheory, question: Question) -> Found | None:
+def solve(theory: BasicActionTheory, question: Question, small: bool = False) -> Found | None:
     """A situation that answers a question with yes, or none if there is provably none.
+
+    If it is to be ``small``, one in which the integers are together as near to 0 as possible.
 
     Raises ``NotDecidedError`` if the solver does not know, or the question cannot be put to it.
     """
@@ -43,8 +48,10 @@ def solve(theory: BasicActionTheory, question: Question) -> Found | None:
     asking = _Asking(theory, encoder, variables)
     wanted, short = asking.question(question), encoder.shortened
     assumed = [*asking.invariants(effort)]
-    model = _model([wanted, *[formula for formula, _ in assumed], *encoder.facts])
+    every = [wanted, *[formula for formula, _ in assumed], *encoder.facts]
+    model = _model(every)
     if isinstance(model, z3.ModelRef):
+        model = _nearest(every, encoder.integers(variables), model) if small else model
         return encoder.values(model), [encoder.decoded(each, model) for each in variables]
     # What is impossible without an invariant of which only some situations are looked at is impossible.
     exact = [formula for formula, whole in assumed if whole]
@@ -64,6 +71,28 @@ def _model(formulas: list[Formula]) -> Any:
     solver.add(*[formula for formula in formulas if formula is not True])
     answer = solver.check()
     return solver.model() if answer == z3.sat else None if answer == z3.unsat else UNKNOWN
+
+
+def _nearest(formulas: list[Formula], integers: list[Any], model: z3.ModelRef) -> z3.ModelRef:
+    """A model in which the absolute values of some integers have the smallest sum that is found early."""
+    solver = z3.Solver()
+    solver.set("timeout", PATIENCE // TRIES)
+    solver.add(*[formula for formula in formulas if formula is not True])
+    size = total([z3.If(each < 0, -each, each) for each in integers])
+    low, high = 0, evaluated(size, model)
+    for _ in range(TRIES):
+        if low == high:
+            break
+        middle = (low + high) // 2
+        solver.push()
+        solver.add(size <= middle)
+        if solver.check() == z3.sat:
+            model = solver.model()
+            high = evaluated(size, model)
+        else:
+            low = middle + 1
+        solver.pop()
+    return model
 
 
 class _Asking:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from golc.diagnostics import Code, Diagnostic, Edit, Fix, Severity, Source, Span
 from golc.loading import Examined, by_place
@@ -38,7 +38,8 @@ def heed(examined: Examined, proofs: bool) -> tuple[Diagnostic, ...]:
     """The findings about a file without those that comments leave out, in the order of their places.
 
     Comments of the file itself that cannot be meant are warned of; those that leave out nothing only if all was looked
-    for: there is a theory, and with ``proofs`` all its situations were taken into account.
+    for: there is a theory, and with ``proofs`` all its situations were taken into account. Their fix is not offered if
+    there may be a finding in another run: with other constants, in states that cannot be reached, with a solver.
     """
     comments = [comment for source in examined.sources for comment in ignores(source)]
     at: dict[tuple[int, int], list[Ignore]] = {}
@@ -51,11 +52,18 @@ def heed(examined: Examined, proofs: bool) -> tuple[Diagnostic, ...]:
             used.setdefault(comment, set()).add(finding.code.code)
         kept += [] if covering else [finding]
     complete = proofs and examined.theory is not None
+    certain = not examined.constants and examined.scope is None and not _open(examined)
     for comment in comments:
         if comment.span.source is examined.sources[0]:
             kept += _misspelt(comment)
-            kept += _idle(comment, used.get(comment, set())) if complete else ()
+            idle = _idle(comment, used.get(comment, set())) if complete else ()
+            kept += idle if certain else (replace(finding, fix=None) for finding in idle)
     return tuple(sorted(kept, key=by_place(examined.sources)))
+
+
+def _open(examined: Examined) -> bool:
+    """Whether something was not worked out, which elsewhere (with a solver, with ``--trust``) may be found."""
+    return any(finding.severity is Severity.NOTE for finding in examined.findings)
 
 
 def ignores(source: Source) -> Iterator[Ignore]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Fix, Label, Span
@@ -66,7 +68,7 @@ def block_on_the_line(failure: Failure) -> Diagnostic | None:
         Code.SYNTAX,
         "a block begins on a line of its own",
         help="put it on the next line, indented by four spaces",
-        fix=block_below(failure.here()),
+        fix=None if re.search(":(?!=)", failure.rest) else block_below(failure.here()),
     )
 
 

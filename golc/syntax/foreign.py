@@ -8,6 +8,7 @@ import unicodedata
 from golc.diagnostics import Code, Diagnostic, Edit, Fix, Span
 from golc.syntax.failure import Failure, Hint
 from golc.syntax.fixes import ends_line, instead, removal, sign_at
+from golc.syntax.terminals import words
 
 SIGNS = {
     "==": ("equality", "="),
@@ -66,8 +67,8 @@ SIGNS = {
 QUOTES = {"“": "”", "”": "”", "'": "'"}
 """What a text begins with elsewhere, and what it ends with there."""
 
-UNCERTAIN = frozenset({"/", "=>", *QUOTES})
-"""Signs that may have been meant otherwise: a division without rounding, ``>=``; and those of which there are two."""
+UNCERTAIN = frozenset({"/", "=>"})
+"""Signs that may have been meant otherwise: a division without rounding, ``>=``."""
 
 PHRASES = {
     ";": ("`;` does not join or end statements", "write them one below the other, each on a line of its own"),
@@ -123,10 +124,18 @@ def foreign_sign(failure: Failure) -> Diagnostic | None:
         meaning, ours = SIGNS[sign]
         if ours == "=" and "ASSIGN" in failure.accepts:
             meaning, ours = "a change", ":="
-        fix = _quoted(failure, span) if sign in QUOTES else None if sign in UNCERTAIN else instead(span, ours)
+        fix = _quoted(failure, span) if sign in QUOTES else instead(span, ours) if _fits(failure, span, ours) else None
         return failure.finding(Code.FOREIGN, f"{meaning} is `{ours}`, not `{sign}`", span, f"write `{ours}`", fix=fix)
     message, help = PHRASES[sign]
     return failure.finding(Code.FOREIGN, message, span, help, fix=_phrase(failure, span))
+
+
+def _fits(failure: Failure, span: Span, ours: str) -> bool:
+    """Whether our sign must be what is meant, and can stand there."""
+    word = words().get(ours.split()[0])
+    return span.text not in UNCERTAIN and (
+        word is None or span.start != failure.here().start or word in failure.accepts
+    )
 
 
 def _quoted(failure: Failure, span: Span) -> Fix | None:
@@ -193,6 +202,9 @@ def _translated(failure: Failure) -> Fix | None:
     here = failure.here()
     if here.text in ("then", "do", "begin"):
         return sign_at(here, ":") if ends_line(here) else None
+    differs = re.match(r"is\s+not\b", failure.rest)
+    if differs:
+        return instead(failure.at(failure.place, failure.place + differs.end()), "!=")
     ours = TRANSLATED.get(here.text)
     return None if ours is None else instead(here, ours)
 

@@ -42,6 +42,7 @@ def fixed(folder: Path, text: str) -> str:
         ("proc p:\n    if f: a  # why\n", "proc p:\n    if f:\n        a  # why\n"),
         ("axiom n:\n  after a := (\n 1)  # why\n", "axiom n:\n  after a := (\n 1)  # why\n  otherwise unchanged\n"),
         ("proc p:\n    a;  # why\n", "proc p:\n    a  # why\n"),
+        ("goal g: n is 1 and n is not 2\n", "goal g: n = 1 and n != 2\n"),
     ],
 )
 def test_what_is_fixed(tmp_path: Path, before: str, after: str) -> None:
@@ -52,6 +53,7 @@ def test_what_is_fixed(tmp_path: Path, before: str, after: str) -> None:
     "text",
     [
         "proc p:\n    if f:\n\ta\n",  # a tab may have any width
+        "fluent &&: bool = f\n",  # a name is missing
         "goal g: n / 2 = 1\n",  # which may not be meant to round
         "goal g: n => 2\n",  # implication, or at least
         "goal g: f or f, f\n",  # which the comma does not join
@@ -60,6 +62,7 @@ def test_what_is_fixed(tmp_path: Path, before: str, after: str) -> None:
         "proc p:\n    say 'it's'\n",
         "proc p:\n    a; a\n",  # Prolog's sequence, or its disjunction
         "proc p:\n    test (f;\n        f)\n",
+        "proc p:\n    if f: a else: a\n",
         "proc p:\n    wait 5\n",  # seconds, or what NQC counts in
         "proc p:\n    test (f and f\n",  # where the bracket ends
         "goal g: m = 1\n",  # a name that is not declared
@@ -94,6 +97,17 @@ SPARE = "const spare = 3"
 def test_comments_that_leave_out_nothing_are_removed(tmp_path: Path, before: str, after: str) -> None:
     both = "action b:\n    causes f := n = 1\n    causes n := 2\n"
     assert fixed(tmp_path, both + before) == both + after
+
+
+@pytest.mark.parametrize("option", ["-Dfar=2", "--reachable", "--no-proofs"])
+def test_a_comment_that_may_be_of_use_in_another_run_stays(tmp_path: Path, option: str) -> None:
+    path = tmp_path / "a.gl"
+    path.write_text(f"{HEAD}const far = 1\ngoal g: n = far and f  # golc: ignore[GL041]\n")
+    before = path.read_text()
+    invoke(["check", "--fix", "-q", option, str(path)])
+    assert path.read_text() == before
+    invoke(["check", "--fix", "-q", str(path)])
+    assert "golc:" not in path.read_text()
 
 
 def test_no_other_text_is_ever_changed() -> None:
