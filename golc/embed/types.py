@@ -60,13 +60,16 @@ class TypeHandle(TypeForm):
         return Named(self.name, "type")
 
     def __iter__(self) -> Iterator[Named | int]:
+        return iter(self._all())
+
+    def __len__(self) -> int:
+        return len(self._all())
+
+    def _all(self) -> list[Named | int]:
         # The same symbols every time: they may be keys of a dictionary.
         if self._listed is None:
             self._listed = self._values(self.value)
-        return iter(self._listed)
-
-    def __len__(self) -> int:
-        return len(list(self))
+        return self._listed
 
     def __getattr__(self, name: str) -> Named:
         if not name.startswith("_"):

@@ -10,7 +10,7 @@ from golc.diagnostics import Code, Span
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import caller
-from golc.embed.terms import Named, Term, binary, expr, function, variable
+from golc.embed.terms import Compound, Named, Term, binary, expr, function, variable
 from golc.embed.types import type_node
 from golc.syntax import tree
 
@@ -102,7 +102,7 @@ def _function(name: str) -> Operator:
 def _epistemic(kind: Any) -> Operator:
     def build(body: object) -> Term:
         span = caller()
-        return Term(tree.Epistemic(kind, expr(body, span), span=span))
+        return Compound(tree.Epistemic(kind, expr(body, span), span=span))
 
     return Operator(kind, build)
 
@@ -122,7 +122,7 @@ def _quantifier(kind: Any) -> Operator:
         variables = bound(body, len(ranges), span)
         binders = tuple(binder(each, over, span) for each, over in zip(variables, ranges, strict=True))
         condition = None if where is None else expr(where(*variables), span)
-        return Term(tree.Quantifier(kind, binders, condition, expr(body(*variables), span), span=span))
+        return Compound(tree.Quantifier(kind, binders, condition, expr(body(*variables), span), span=span))
 
     return Operator(kind, build)
 

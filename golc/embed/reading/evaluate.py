@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from types import BuiltinFunctionType
 
 from golc.diagnostics import Code, Label, UserError
@@ -123,7 +123,14 @@ class Evaluator:
             place = self.function.place(node)
             labels = () if error.__traceback__ is None else _where(error)
             message = f"Python fails here with {type(error).__name__}: {error}"
-            raise refused(Code.PYTHON_RAISED, message, place, labels=labels) from None
+            raise refused(Code.PYTHON_RAISED, message, place, _cure(node, names.values()), labels) from None
+
+
+def _cure(node: ast.expr, used: Iterable[object]) -> str | None:
+    """What helps where a term was looked up in a collection of Python."""
+    if isinstance(node, ast.Subscript) and any(isinstance(value, Term) for value in used):
+        return "Python looks up constants only; what depends on the situation is a static: `theory.static(…)`"
+    return None
 
 
 def _where(error: Exception) -> tuple[Label, ...]:
