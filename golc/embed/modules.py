@@ -7,6 +7,7 @@ import linecache
 import re
 import sys
 import traceback
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import ModuleType, TracebackType
@@ -35,14 +36,15 @@ def read_theory(path: str | Path) -> Written:
     logger.info("executes %s", name)
     module = ModuleType(f"golc_theory_{Path(path).stem}")
     module.__file__ = name
-    try:
-        with _running(module, Path(path).parent):
+    with _running(module, Path(path).parent):
+        try:
             exec(compile(source.text, name, "exec"), vars(module))
-    except (KeyboardInterrupt, MemoryError):
-        raise
-    except BaseException as error:
-        raise UserError(*_raised(error, source), *_found_so_far(vars(module), source)) from None
-    return _only_theory(vars(module), source).written()
+        except (KeyboardInterrupt, MemoryError):
+            raise
+        except BaseException as error:
+            raise UserError(*_raised(error, source), *_found_so_far(vars(module), source)) from None
+        # Plain functions that translated ones call run only now; they, too, may print and import what lies beside.
+        return _only_theory(vars(module), source).written()
 
 
 def _checked(name: str) -> Source:
@@ -52,7 +54,10 @@ def _checked(name: str) -> Source:
     read_source(name, empty="a theory in Python begins with `from golc.embed import Theory`")
     source = source_of(name)
     try:
-        compile(source.text, name, "exec")
+        with warnings.catch_warnings():
+            # Python warns when it is compiled to be run.
+            warnings.simplefilter("ignore")
+            compile(source.text, name, "exec")
     except SyntaxError as error:
         raise UserError(_syntax(error, source)) from None
     except (ValueError, RecursionError, MemoryError) as error:

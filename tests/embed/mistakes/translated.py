@@ -249,6 +249,7 @@ def d31():
 def d32():
     return print(location)
 #! 12+15 GL143 `print` gives no value, and what it does is not a part of the theory
+#! help: a program writes `say(f"…")`
 
 
 @theory.define
@@ -662,6 +663,7 @@ def control(n: station):
             go(n)
     print("x")
 #! 5+10 GL143 `print` gives no value, and what it does is not a part of the theory
+#! help: a program writes `say(f"…")`
     yield go(n)
 #! 5+11 GL143 this does nothing
 #! help: call an action or a procedure
