@@ -18,7 +18,7 @@ from golc.embed.names import BUILTINS, golc_name
 from golc.embed.parts import Written
 from golc.embed.places import code_span, line_span, offset, source_of
 from golc.embed.theory import Theory
-from golc.theory.python_file import logger
+from golc.theory.python_file import failure, logger
 from golc.theory.suggest import did_you_mean
 
 HERE = str(Path(__file__).parent)
@@ -31,7 +31,7 @@ def read_theory(path: str | Path) -> Written:
     not hold exactly one theory; what is wrong with translated functions is among the findings of what is returned.
     """
     name = str(path)
-    linecache.checkcache(name)
+    linecache.checkcache()
     source = _checked(name)
     logger.info("executes %s", name)
     module = ModuleType(f"golc_theory_{Path(path).stem}")
@@ -78,19 +78,31 @@ def _syntax(error: SyntaxError, source: Source) -> Diagnostic:
 @contextlib.contextmanager
 def _running(module: ModuleType, folder: Path) -> Iterator[None]:
     """The module can be found by its name and imports what lies beside it; the standard output is left to results."""
-    place = str(folder.resolve())
-    before = sys.modules.get(module.__name__)
+    path, modules = list(sys.path), dict(sys.modules)
     sys.modules[module.__name__] = module
-    sys.path.insert(0, place)
+    sys.path.insert(0, str(folder.resolve()))
     try:
         with contextlib.redirect_stdout(sys.stderr):
             yield
     finally:
-        sys.path.remove(place)
-        if before is None:
-            sys.modules.pop(module.__name__, None)
-        else:
-            sys.modules[module.__name__] = before
+        sys.path[:] = path
+        # What lies beside one theory is not meant by the next, and may have changed when this one is read again.
+        for name in _beside(folder.resolve(), [each for each in sys.modules if each.partition(".")[0] not in modules]):
+            del sys.modules[name]
+        sys.modules.pop(module.__name__, None)
+        if module.__name__ in modules:
+            sys.modules[module.__name__] = modules[module.__name__]
+
+
+def _beside(folder: Path, names: list[str]) -> list[str]:
+    """Those modules that come from a file of a folder, or from a package in it."""
+    found = []
+    for name in names:
+        top = sys.modules.get(name.partition(".")[0])
+        paths = [getattr(top, "__file__", None), *getattr(top, "__path__", ())]
+        if any(isinstance(path, str) and folder in Path(path).parents[:2] for path in paths):
+            found.append(name)
+    return found
 
 
 def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
@@ -106,8 +118,7 @@ def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
         broken = source_of(error.filename or "")
         if broken.text:
             return (_syntax(error, broken),)
-    text = "".join(traceback.format_exception_only(error)).strip().splitlines()[-1]
-    message = f"Python fails here with {text}"
+    message = f"Python fails here with {failure(error)}"
     return (Diagnostic(Code.PYTHON_RAISED, message, place, labels=tuple(labels), help=_cure(error, source)),)
 
 

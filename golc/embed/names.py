@@ -8,6 +8,7 @@ import unicodedata
 
 from golc.diagnostics import Code, Span
 from golc.embed.errors import refused
+from golc.embed.terms import described
 from golc.syntax import tree
 from golc.syntax.words import RESERVED
 
@@ -42,7 +43,7 @@ def python_name(name: str) -> str:
 def new_name(text: object, span: Span, used: bool = False) -> tree.Ident:
     """A name that comes into being at a place, or is only ``used`` there. Raises ``Refused`` if it cannot be one."""
     if not isinstance(text, str) or not _NAME.fullmatch(text):
-        what = f"`{text}`" if isinstance(text, str) else f"a {type(text).__name__}"
+        what = f"`{text}`" if isinstance(text, str) else described(text)
         help_ = "begin it with a letter and go on with letters (without accents), digits and `_`"
         near = _nearest_name(text) if isinstance(text, str) else ""
         raise refused(

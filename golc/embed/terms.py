@@ -7,6 +7,8 @@ term, whose value depends on the situation: it is refused at its place.
 from __future__ import annotations
 
 import ast
+import contextlib
+import contextvars
 from collections.abc import Iterable, Iterator
 from decimal import Decimal
 from typing import Any, NoReturn
@@ -15,13 +17,35 @@ from golc.diagnostics import NOWHERE, Code, Span
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.places import caller, calling_frame, frame_span, node_at, span_of
 from golc.syntax import tree
+from golc.syntax.layout import LONGEST_NUMBER
+from golc.syntax.walk import descendants
 from golc.theory.suggest import did_you_mean
 
+_LARGEST = 10**LONGEST_NUMBER
 SIGNS = "write `&`, `|` and `~` with each comparison in parentheses; or write it in a translated function"
 
 
 COMPARISONS: dict[type[ast.cmpop], str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
 TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
+
+
+class Variable(str):
+    """The name of a bound variable; its identity tells it from others with this name."""
+
+    __slots__ = ()
+
+
+_translating: contextvars.ContextVar[bool] = contextvars.ContextVar("translating", default=False)
+
+
+@contextlib.contextmanager
+def translating() -> Iterator[None]:
+    """While this lasts Python runs for a translated function: terms stand for values that nobody knows yet."""
+    token = _translating.set(True)
+    try:
+        yield
+    finally:
+        _translating.reset(token)
 
 
 class Term:
@@ -37,7 +61,21 @@ class Term:
 
         return unparse_expression(self.node)
 
-    __hash__ = object.__hash__
+    def __hash__(self) -> int:
+        if self._is_open() and _translating.get():
+            help_ = "make a dictionary a static, whose value is this dictionary; write a set with `{…}` in the function"
+            raise meaningless("Python looks a term up at once, before there is a situation", caller(), help_)
+        return object.__hash__(self)
+
+    def __str__(self) -> str:
+        if self._is_open() and _translating.get():
+            help_ = 'write the term into the message itself: `say(f"{e}")`'
+            raise meaningless("Python writes a term at once, before there is a situation", caller(), help_)
+        return repr(self)
+
+    def _is_open(self) -> bool:
+        """Whether what it stands for depends on the situation, or on what a variable stands for."""
+        return True
 
     def __eq__(self, other: object) -> Term:  # type: ignore[override]
         return binary("=", self, other)
@@ -154,6 +192,9 @@ class Named(Term):
         self.kind = kind
         self.parameters = parameters
 
+    def _is_open(self) -> bool:
+        return not self.parameters and self.kind in ("variable", "const", "static", "fluent", "definition")
+
     def __call__(self, *args: object, **named: object) -> Term:
         """The name applied to arguments, by place or by the names of the parameters."""
         frame = calling_frame()
@@ -198,7 +239,7 @@ def _no_parameter(named: Named, wrong: str, span: Span) -> Refused:
 
 def variable(name: str, span: Span = NOWHERE) -> Named:
     """A bound variable."""
-    return Named(name, "variable", (), span)
+    return Named(Variable(name), "variable", (), span)
 
 
 def binary(sign: Any, left: object, right: object) -> Term:
@@ -262,6 +303,8 @@ def expr(value: object, span: Span) -> tree.Expr:
         case bool():
             return tree.Truth(value, span=span)
         case int():
+            if value.bit_length() > _LARGEST.bit_length():
+                raise _too_long(span)
             number = tree.Number(abs(value), span=span)
             return number if value >= 0 else tree.Unary("-", number, span=span)
         case float() | Decimal():
@@ -274,9 +317,10 @@ def expr(value: object, span: Span) -> tree.Expr:
             return tree.SetLiteral(tuple(expr(element, span) for element in sorted(value, key=repr)), span=span)
         case list() | tuple() | range():
             return tree.ListLiteral(tuple(expr(element, span) for element in value), span=span)
-    as_term = getattr(value, "as_term", None)
-    if as_term is not None:
-        return expr(as_term(), span)
+    # Asked of the class, because an object may have an answer for every name.
+    as_term = getattr(type(value), "as_term", None)
+    if as_term is not None and isinstance(term := as_term(value), Term):
+        return expr(term, span)
     raise refused(Code.PYTHON_VALUE, f"{described(value)} means nothing in a theory", span, _instead(value))
 
 
@@ -284,9 +328,21 @@ def _real(value: float | Decimal, span: Span) -> tree.Expr:
     number = Decimal(repr(value)) if isinstance(value, float) else value
     if not number.is_finite():
         raise refused(Code.PYTHON_VALUE, f"{value} is no number of the language", span)
+    if abs(number.adjusted()) > LONGEST_NUMBER or len(number.as_tuple().digits) > LONGEST_NUMBER:
+        raise _too_long(span)
     digits = Decimal(format(abs(number), "f"))
     real = tree.Real(digits if digits.as_tuple().exponent else digits.quantize(Decimal("0.1")), span=span)
     return real if number >= 0 else tree.Unary("-", real, span=span)
+
+
+def _too_long(span: Span) -> Refused:
+    message = f"a number of so many digits is too long: the limit is {LONGEST_NUMBER}"
+    return refused(Code.PYTHON_VALUE, message, span)
+
+
+def plain_names(node: tree.Expr) -> Iterator[str]:
+    """The names in a term that have no arguments."""
+    return (each.name.text for each in descendants(node) if isinstance(each, tree.Apply) and not each.args)
 
 
 def described(value: object) -> str:

@@ -20,7 +20,7 @@ from golc.embed.reading.programs import Programs
 from golc.embed.reading.scenarios import Scenarios
 from golc.embed.reading.tables import table_of
 from golc.embed.symbols import no_strings
-from golc.embed.terms import Named, expr
+from golc.embed.terms import Named, Term, expr
 from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
 
@@ -387,7 +387,11 @@ class Theory:
         """A value that is a function of the parameters, for variables with their names."""
         if not isinstance(value, FunctionType):
             return value
-        return value(*words.bound(value, len(heads), span, [head.name.text for head in heads]))
+        variables = words.bound(value, len(heads), span, [head.name.text for head in heads])
+        made = value(*variables)
+        if isinstance(made, Term):
+            words.of_variables(made.node, variables, span)
+        return made
 
     def _returns(self, translator: Translator) -> tree.Type | None:
         annotation = translator.function.node.returns

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import typing
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import chain
 from types import UnionType
 from typing import Any
 
@@ -53,44 +54,46 @@ class TypeHandle(TypeForm):
         self.name = name
         self.value = value
         self._look_up = look_up
-        self._listed: list[Named | int] | None = None
+        self._listed: list[Sequence[Named | int]] | None = None
 
     def as_term(self) -> Named:
         """The type's name as the list of its values."""
         return Named(self.name, "type")
 
     def __iter__(self) -> Iterator[Named | int]:
-        return iter(self._all())
+        return chain.from_iterable(self._pieces())
 
     def __len__(self) -> int:
-        return len(self._all())
+        return sum(len(piece) for piece in self._pieces())
 
-    def _all(self) -> list[Named | int]:
+    def symbols(self) -> dict[str, Named]:
+        """Its symbols by their names; integers, which may be very many, are not gone through."""
+        pieces = [piece for piece in self._pieces() if not isinstance(piece, range)]
+        return {value.name: value for value in chain.from_iterable(pieces) if isinstance(value, Named)}
+
+    def __getattr__(self, name: str) -> Named:
+        if not name.startswith("_") and (symbol := self.symbols().get(name)) is not None:
+            return symbol
+        raise AttributeError(f"the type `{self.name}` has no symbol `{name}`", name=name, obj=self)
+
+    def _pieces(self) -> list[Sequence[Named | int]]:
         # The same symbols every time: they may be keys of a dictionary.
         if self._listed is None:
             self._listed = self._values(self.value)
         return self._listed
 
-    def __getattr__(self, name: str) -> Named:
-        if not name.startswith("_"):
-            for value in self:
-                if isinstance(value, Named) and value.name == name:
-                    return value
-        raise AttributeError(f"the type `{self.name}` has no symbol `{name}`", name=name, obj=self)
-
-    def _values(self, node: tree.Type) -> list[Named | int]:
+    def _values(self, node: tree.Type) -> list[Sequence[Named | int]]:
         match node:
             case tree.EnumType(elements=elements):
-                return [e.value if isinstance(e, tree.Number) else Named(e.text, "symbol") for e in elements]
+                return [[e.value if isinstance(e, tree.Number) else Named(e.text, "symbol") for e in elements]]
             case tree.IntervalType(low=low, high=high):
-                first, last = self._bound(low), self._bound(high)
-                return list(range(first, last + 1))
+                return [range(self._bound(low), self._bound(high) + 1)]
             case tree.UnionType(pieces=pieces):
                 return [value for piece in pieces for value in self._values(piece)]
             case tree.TypeName(name=name):
                 other = self._look_up(name.text)
                 if isinstance(other, TypeHandle):
-                    return list(other)
+                    return other._pieces()
         raise meaningless(f"the values of `{self.name}` cannot be listed here", caller())
 
     def _bound(self, node: tree.Expr) -> int:

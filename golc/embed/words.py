@@ -10,9 +10,10 @@ from golc.diagnostics import Code, Span
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import caller
-from golc.embed.terms import Compound, Named, Term, binary, expr, function, variable
+from golc.embed.terms import Compound, Named, Term, binary, expr, function, plain_names, variable
 from golc.embed.types import type_node
 from golc.syntax import tree
+from golc.syntax.walk import descendants
 
 
 class Word:
@@ -121,8 +122,11 @@ def _quantifier(kind: Any) -> Operator:
         *ranges, body = parts
         variables = bound(body, len(ranges), span)
         binders = tuple(binder(each, over, span) for each, over in zip(variables, ranges, strict=True))
-        condition = None if where is None else expr(where(*variables), span)
-        return Compound(tree.Quantifier(kind, binders, condition, expr(body(*variables), span), span=span))
+
+        def of(function: Callable[..., object]) -> tree.Expr:
+            return of_variables(expr(function(*variables), span), variables, span)
+
+        return Compound(tree.Quantifier(kind, binders, None if where is None else of(where), of(body), span=span))
 
     return Operator(kind, build)
 
@@ -133,6 +137,19 @@ def bound(body: Callable[..., object], count: int, span: Span, names: Sequence[s
     if len(own) != count:
         raise refused(Code.ARITY, f"the function has {len(own)} variables for {count} types", span)
     return [variable(name, span) for name in (names or [golc_name(name) for name in own])]
+
+
+def of_variables(node: tree.Expr, variables: Sequence[Named], span: Span) -> tree.Expr:
+    """The same term. Raises ``Refused`` if something else in it would be taken for one of the variables around it."""
+    inside = [
+        binder.name.text for each in descendants(node) if isinstance(each, tree.Quantifier) for binder in each.binders
+    ]
+    own = [*inside, *(each.name for each in variables)]
+    for name in plain_names(node):
+        if name in own and not any(name is each for each in own):
+            message = f"another `{name}` cannot be meant where a variable has this name"
+            raise meaningless(message, span, "give the variable of the `lambda` another name")
+    return node
 
 
 def binder(variable: Named, over: object, span: Span) -> tree.Binder:

@@ -11,14 +11,14 @@ from golc.proofs.asking import Asking, Leaf
 from golc.proofs.cases import Case, explore
 from golc.proofs.domains import Domain
 from golc.proofs.effort import Effort
-from golc.proofs.prover import Prover
+from golc.proofs.prover import MOST_CASES, Prover
 from golc.proofs.questions import Afterwards, Asked, Question, Step, Undecided, Witness, terms_of
 from golc.proofs.reachable import MOST_EFFORT, Reached, Scope, leads_on, reachable
 from golc.proofs.slices import dependence, sliced
 from golc.proofs.smallest import rank, reduced
 from golc.proofs.symbols import NotDecidedError
 from golc.situation.dynamics import Dynamics
-from golc.situation.worlds import ASK, Readable, State, survey
+from golc.situation.worlds import ASK, Readable, State, TooManyCasesError, survey
 from golc.theory.reading import fluents_read
 from golc.theory.reading import reached as reached_terms
 from golc.theory.terms import Epistemic
@@ -68,7 +68,7 @@ class Among:
         started = time.monotonic()
         try:
             found = self._narrower(question, small, started + self._left)
-        except NotDecidedError:
+        except (NotDecidedError, TooManyCasesError):
             return answer
         finally:
             self._left -= time.monotonic() - started
@@ -103,8 +103,12 @@ class Among:
     def _is_too_much(self, question: Question) -> bool:
         """Whether it takes too long to evaluate, or depends on what is known after an action."""
         after = any(isinstance(step, Afterwards) and self._is_about_knowledge(step) for step in question.steps)
-        terms = [term for step in question.steps for term in terms_of(self._theory, step)]
-        return after or self._effort.of(terms) > MOST_EFFORT
+        effort = 0
+        for step in question.steps:
+            effort += self._effort.of(terms_of(self._theory, step))
+            if isinstance(step, Afterwards):
+                effort += self._effort.of_action(self._theory.actions[step.action])
+        return after or effort > MOST_EFFORT
 
     def _search(
         self, question: Question, states: list[Reached], small: bool, deadline: float
@@ -114,13 +118,11 @@ class Among:
         for reached in states:
             if found and (not small or reached.actions > found[0][0].actions or len(found) >= MORE_WITNESSES):
                 break
-            if time.monotonic() > deadline:
-                raise NotDecidedError("it takes too long to look for a witness in the states that can be reached")
-            found += [(reached, case, leaf) for case, leaf in self._witnesses(question, reached.state)]
+            found += [(reached, case, leaf) for case, leaf in self._witnesses(question, reached.state, deadline)]
         shown = [(*self._shown(question, case, leaf), reached) for reached, case, leaf in found[:MORE_WITNESSES]]
         return min(shown, key=lambda each: each[0])[1:] if shown else None
 
-    def _witnesses(self, question: Question, state: State) -> Iterator[tuple[Case, Leaf]]:
+    def _witnesses(self, question: Question, state: State, deadline: float) -> Iterator[tuple[Case, Leaf]]:
         """The cases of a state, and of each world in it, in which what is asked is so."""
         domains = dict(enumerate(self._asking.domains_of(question)[self._first :], start=self._first))
         acts = Question(question.variables, tuple(_known(question.steps)))
@@ -132,11 +134,15 @@ class Among:
                     return self._asking.leaf(question, case, assuming=False)
                 return Leaf({}, None)
 
-            every = [*explore(partial(_Situation, world, self._first, domains), leaf)]
-            found: list[tuple[Case, Leaf]] = [(case, leaf) for case, leaf in every if leaf.is_witness]
-            if not found and not all(case.whole for case, _ in every):
+            every: list[tuple[Case, Leaf]] = []
+            for case, found in explore(partial(_Situation, world, self._first, domains), leaf):
+                every.append((case, found))
+                if len(every) > MOST_CASES or time.monotonic() > deadline:
+                    raise NotDecidedError("there are too many cases in the states that can be reached")
+            witnesses = [(case, leaf) for case, leaf in every if leaf.is_witness]
+            if not witnesses and not all(case.whole for case, _ in every):
                 raise NotDecidedError("a value is asked for that cannot be enumerated")
-            return found
+            return witnesses
 
         for _, found in survey(state, ask):
             yield from found

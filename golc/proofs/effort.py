@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 
 from golc.theory.fitting import collection, size
 from golc.theory.terms import Binder, Comprehension, DefinedTerm, PossTerm, Quantified, Term, children
-from golc.theory.theory import BasicActionTheory
+from golc.theory.theory import Action, BasicActionTheory, Effect
 
 USUAL_ELEMENTS = 10
 """How many elements a set or list is taken to have whose elements have no finite type."""
@@ -26,6 +27,15 @@ class Effort:
         for term in terms:
             total += self._of(term)
         return total
+
+    def of_action(self, action: Action) -> int:
+        """How many parts are evaluated when an action happens, those of an effect for all values of its binders."""
+        parts = self.of((*action.preconditions, *action.senses))
+        return parts + sum([self.of_effect(effect) for effect in action.effects])
+
+    def of_effect(self, effect: Effect) -> int:
+        """How many parts are evaluated of an effect, for all values of its binders."""
+        return self.of(effect.terms) * math.prod([_instances(binder) for binder in effect.binders])
 
     def _of(self, term: Term) -> int:
         inside = 1 + self.of(children(term))

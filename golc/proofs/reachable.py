@@ -8,12 +8,12 @@ world. An action whose effects fail is an error of the theory, as is one that br
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, TypeAlias
 
-from golc.diagnostics import ProgramError, counted
+from golc.diagnostics import Code, ProgramError, counted
 from golc.proofs.cases import Case, explore
 from golc.proofs.domains import Domain, Some, any_of, domain
 from golc.proofs.effort import Effort
@@ -22,8 +22,8 @@ from golc.situation.dynamics import Args, Dynamics
 from golc.situation.worlds import State, TooManyCasesError, Worlds
 from golc.theory.errors import NotExecutedError
 from golc.theory.recursion import EVALUATION, deep_recursion
-from golc.theory.terms import Term, Variable, subterms
-from golc.theory.theory import Action, BasicActionTheory
+from golc.theory.terms import Variable, subterms
+from golc.theory.theory import Action
 from golc.theory.types import Value, show
 
 Condition: TypeAlias = Callable[..., Any]
@@ -141,13 +141,17 @@ class _Search:
 
     def _explore(self) -> None:
         theory = self.dynamics.theory
-        if Effort(theory).of(_evaluated(theory)) > MOST_EFFORT:
+        effort = Effort(theory)
+        actions = [action for action in theory.actions.values() if action.effects or action.senses]
+        bodies = [theory.definitions[name].body for name in theory.invariants]
+        if sum(map(effort.of_action, actions)) + effort.of(bodies) > MOST_EFFORT:
             raise NotDecidedError("what the actions do takes too long to evaluate")
         holds = _invariants(self.dynamics)
-        instances = {action: _domains(action) for action in theory.actions.values() if action.effects or action.senses}
+        instances = {action.name: _domains(action) for action in actions}
         self._add(Reached(self.dynamics.initial()))
         for here in self.found:
-            for action, domains in instances.items():
+            for action in actions:
+                domains = instances[action.name]
                 try:
                     self._follow(here, action, domains, holds)
                 except _TooLongError:
@@ -156,8 +160,8 @@ class _Search:
                     if Range not in map(type, domains):
                         raise
                     self._not_all(f"`{action.name}` has more instances than can be gone through: {error}")
-                    instances[action] = [Some(FEW) if isinstance(of, Range) else of for of in domains]
-                    self._follow(here, action, instances[action], holds)
+                    instances[action.name] = [Some(FEW) if isinstance(of, Range) else of for of in domains]
+                    self._follow(here, action, instances[action.name], holds)
 
     def _follow(self, here: Reached, action: Action, domains: list[Domain], holds: list[Condition]) -> None:
         """What the instances of an action lead to."""
@@ -199,9 +203,8 @@ class _Search:
                 return []
             after = dynamics.progress(before, name, args)
             outcomes = dynamics.outcomes(after, name, args) if action.senses else []
-        except NotExecutedError:
-            raise
-        except ProgramError:
+        except ProgramError as error:
+            _tell(error)
             return []
         if not outcomes:
             return [("", after)]
@@ -218,16 +221,6 @@ class _TooLongError(NotDecidedError):
     """The search is over."""
 
 
-def _evaluated(theory: BasicActionTheory) -> Iterator[Term]:
-    """What is evaluated in a state, each once."""
-    for action in theory.actions.values():
-        yield from (*action.preconditions, *action.senses)
-        for effect in action.effects:
-            yield from effect.terms
-    for name in theory.invariants:
-        yield theory.definitions[name].body
-
-
 def _domains(action: Action) -> list[Domain]:
     """What the parameters of an action may be; one value each of those that do not matter."""
     terms = [*action.preconditions, *action.senses, *[term for effect in action.effects for term in effect.terms]]
@@ -239,10 +232,15 @@ def _domains(action: Action) -> list[Domain]:
 def _is_true(condition: Condition, state: State) -> bool:
     try:
         return bool(condition(state, ()))
-    except NotExecutedError:
-        raise
-    except ProgramError:
+    except ProgramError as error:
+        _tell(error)
         return False
+
+
+def _tell(error: ProgramError) -> None:
+    """Raise an error that says nothing about the theory."""
+    if isinstance(error, NotExecutedError) or error.diagnostic.code is Code.TOO_MANY_WORLDS:
+        raise error
 
 
 def _size(state: State) -> int:

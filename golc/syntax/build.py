@@ -9,16 +9,13 @@ from lark import Token, Tree
 
 from golc.diagnostics import Code, Findings, Source, Span
 from golc.syntax import tree as ast
-from golc.syntax.layout import DEEPEST
+from golc.syntax.layout import DEEPEST, LONGEST_NUMBER
 from golc.syntax.messages import parse_message, plain_text
 from golc.syntax.rules import NESTING, RULES, SIMPLE
 from golc.syntax.words import RESERVED
 
 Inner: TypeAlias = Callable[[Span], ast.Expr | None]
 """Parses the expression at a place inside a message."""
-
-LONGEST_NUMBER = 4000
-"""Digits; Python refuses to read or print much longer integers."""
 
 
 class Builder:

@@ -14,6 +14,9 @@ from golc.syntax.words import DECLARATIONS
 DEEPEST = 500
 """Levels of nesting that a text and its tree may have."""
 
+LONGEST_NUMBER = 4000
+"""Digits that a number may have; Python refuses to read or print much longer integers."""
+
 OPENING = {"LPAR": "(", "LSQB": "[", "LBRACE": "{"}
 CLOSING = {"RPAR": ")", "RSQB": "]", "RBRACE": "}"}
 

@@ -60,7 +60,7 @@ class Blame:
                 uses.setdefault(suspect, []).append(finding)
         guilty = {suspect for suspect, found in uses.items() if len(found) > 1 and suspect not in self.cleared} | own
         spoken: dict[int, Diagnostic | None] = {}
-        for suspect in sorted(guilty & uses.keys(), key=lambda each: (each not in own, -len(uses[each]))):
+        for suspect in sorted(filter(guilty.__contains__, uses), key=lambda each: (each not in own, -len(uses[each]))):
             found = [finding for finding in uses[suspect] if id(finding) not in spoken]
             spoken.update(dict.fromkeys(map(id, found)))
             if suspect not in own and found:

@@ -175,8 +175,9 @@ class Context:
 
     def misspelt(self, code: Code, name: Span, similar: Suggestion) -> None:
         """A name that is declared nowhere, but one like it is."""
+        kind = "type" if code is Code.UNKNOWN_TYPE else similar.kind
         suspects = [Suspect(Matter.NAME, label.span) for label in similar.labels if self._is_spare(similar.name)]
-        message = f"unknown {similar.kind} `{name.text}`"
+        message = f"unknown {kind} `{name.text}`"
         self.error(code, message, name, "not declared", similar.help, similar.labels, suspects)
 
     def _is_spare(self, name: str) -> bool:
@@ -207,7 +208,8 @@ class Context:
             self.findings.add(replace(first, notes=also([first, *rest])))
         wrong = self._wrong(_TYPE_FAULTS)
         faulty = [Suspect(matter, entry.span) for entry in wrong for matter in _untyped(entry.node)]
-        faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE,))]
+        faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE, Code.PYTHON))]
+        faulty += [Suspect(Matter.NAME, entry.span) for entry in self._wrong((Code.PYTHON,))]
         self.findings.diagnostics[:] = self.blame.settle(self.findings.diagnostics, faulty)
 
     def _merge_missing(self) -> None:

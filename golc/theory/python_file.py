@@ -28,6 +28,13 @@ Function: TypeAlias = Callable[..., object]
 T = TypeVar("T")
 
 
+def failure(error: BaseException) -> str:
+    """An exception in one line, its type and what it says."""
+    said = traceback.TracebackException.from_exception(error)
+    said.__notes__ = None
+    return " ".join([*said.format_exception_only()][-1].split())
+
+
 class PythonError(Exception):
     """Python code cannot be used, or has failed: why, the place in the file if there is one, and what helps."""
 
@@ -97,9 +104,8 @@ class PythonFile:
         except BaseException as error:
             line = self._line(error)
             where = str(self.path) if line is None else f"{self.path}:{line}"
-            why = " ".join(traceback.format_exception_only(error)[-1].split())
             place = None if line is None else self.line(line)
-            raise PythonError(f"{what} failed at {where}: {why}", place) from error
+            raise PythonError(f"{what} failed at {where}: {failure(error)}", place) from error
 
     def definition(self, function: Function) -> Span | None:
         """The line of this file where a function is defined; none if it comes from elsewhere."""

@@ -32,6 +32,7 @@ KINDS: dict[str, Set[str]] = {
     # Their keys are counted, and their parameters named, otherwise.
     **dict.fromkeys(("static table", "sensing table"), FOUR - {"wrong arity"}),
     **dict.fromkeys(("axiom", "by call", "binding with parameters", "report", "host"), FOUR - {"wrong type"}),
+    "extern": (FOUR - {"wrong arity"}) | {"wrong function"},
     "self": {"misspelt name", "wrong arity"},
     "import": {"misspelt name", "misspelt keyword", "missing part"},
     # These have nothing but their words and blocks.

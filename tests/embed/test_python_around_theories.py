@@ -374,13 +374,6 @@ def test_a_table_from_a_file_is_told_what_is_missing(
     assert [(each.message, each.span.text, each.help) for each in found] == [(message, place, help_)]
 
 
-def test_a_dictionary_of_python_cannot_be_asked_for_what_depends_on_the_situation(wrong_with: Wrong) -> None:
-    (found,) = wrong_with(TOWNS + "far = {town.Bonn: 1}\n@theory.goal\ndef near():\n    return far[at] == 1\n")
-
-    assert (found.code.code, found.span.text) == ("GL141", "far[at]")
-    assert found.help == "Python looks up constants only; what depends on the situation is a static: `theory.static(…)`"
-
-
 @pytest.mark.parametrize(
     ("text", "help_"),
     [

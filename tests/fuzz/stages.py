@@ -61,7 +61,15 @@ def every_stage(path: Path, rng: random.Random, clock: Clock) -> Examined:
         _lay_out(path)
     if rng.random() < 0.02:
         with clock.stage("check"):
-            _run(["check", "--format", rng.choice(FORMATS), *rng.choice(([], ["--no-proofs"])), str(path)])
+            _run(
+                [
+                    "check",
+                    "--format",
+                    rng.choice(FORMATS),
+                    *rng.choice(([], ["--no-proofs"], ["--reachable"])),
+                    str(path),
+                ]
+            )
     if examined.theory is not None:
         for command in _commands(path, examined, rng):
             with clock.stage(command[0]):

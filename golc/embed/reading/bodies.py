@@ -59,12 +59,16 @@ class Bodies(Expressions):
             help_ = "Python goes through what it knows: a list, a tuple, a dictionary"
             raise meaningless("there is nothing to go through here", self.span(node.iter), help_)
         self.no_else(node)
-        for value in values:
-            before = dict(self.function.fixed)
-            self._assign(node.target, value)
-            yield from self.each(node.body, translate)
-            self.function.fixed.clear()
-            self.function.fixed.update(before)
+        # The order of a set changes from run to run.
+        for value in sorted(values, key=repr) if isinstance(values, (set, frozenset)) else values:
+            fixed, bound = dict(self.function.fixed), set(self.bound)
+            try:
+                self._assign(node.target, value)
+                yield from self.each(node.body, translate)
+            finally:
+                self.function.fixed.clear()
+                self.function.fixed.update(fixed)
+                self.bound |= bound
 
     def listed(self, node: ast.expr) -> object:
         """What a loop of Python goes through: a value of Python, or a list that is written out."""
@@ -76,6 +80,7 @@ class Bodies(Expressions):
         match target:
             case ast.Name(id=name):
                 self.function.fixed[name] = value
+                self.bound.discard(name)
             case ast.Tuple(elts=parts) | ast.List(elts=parts) if isinstance(value, Sequence) and len(value) == len(
                 parts
             ):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterator
 from types import BuiltinFunctionType
 
 from golc.diagnostics import Code, Label, UserError
@@ -11,9 +11,10 @@ from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
 from golc.embed.reading.functions import Function
-from golc.embed.terms import Named, Term, variable
+from golc.embed.terms import Term, translating, variable
 from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, enum, interval, optional, symbols, union
 from golc.embed.words import Value, Word
+from golc.theory.python_file import failure
 from golc.theory.suggest import did_you_mean
 
 NOT_PYTHON = object()
@@ -73,7 +74,7 @@ class Evaluator:
                 ours = called is NOT_PYTHON or isinstance(called, (Term, Word, Value))
                 if ours or (_is_ours(called) and not self._constant(node)):
                     return NOT_PYTHON
-                value = self._run(node)
+                value = None if called is print else self._run(node)
                 if value is None and isinstance(called, BuiltinFunctionType):
                     message = f"`{called.__name__}` gives no value, and what it does is not a part of the theory"
                     help_ = 'a program writes `say(f"…")`' if called is print else None
@@ -84,11 +85,11 @@ class Evaluator:
         return self._run(node) if self._constant(node) else NOT_PYTHON
 
     def _symbol(self, base: TypeHandle, node: ast.Attribute) -> object:
-        names = [value.name for value in base if isinstance(value, Named)]
+        names = base.symbols()
         if node.attr not in names:
             message = f"the type `{base.name}` has no symbol `{node.attr}`"
             raise refused(Code.UNKNOWN_NAME, message, self.function.place(node), did_you_mean(node.attr, names))
-        return getattr(base, node.attr)
+        return names[node.attr]
 
     def _constant(self, node: ast.expr) -> bool:
         """Whether there are names in an expression that mean nothing in the language, and all in it is Python's."""
@@ -99,6 +100,8 @@ class Evaluator:
         match node:
             case ast.Constant():
                 return True
+            case ast.Await() | ast.Yield() | ast.YieldFrom() | ast.NamedExpr():
+                return False
             case ast.BinOp(left=left, right=right):
                 return self._plain(left) and self._plain(right)
             case ast.BoolOp(values=parts) | ast.List(elts=parts) | ast.Tuple(elts=parts) | ast.Set(elts=parts):
@@ -117,24 +120,16 @@ class Evaluator:
         names = {each.id: self.name(each) for each in free_names(node)}
         code = compile(ast.Expression(node), self.function.source.name, "eval")
         try:
-            return eval(code, {"__name__": self.function.function.__module__, **names})
-        except UserError:
+            with translating():
+                return eval(code, {"__name__": self.function.function.__module__, **names})
+        except (UserError, KeyboardInterrupt, MemoryError):
             raise
-        except Exception as error:
-            place = self.function.place(node)
-            labels = () if error.__traceback__ is None else _where(error)
-            message = f"Python fails here with {type(error).__name__}: {error}"
-            raise refused(Code.PYTHON_RAISED, message, place, _cure(node, names.values()), labels) from None
+        except BaseException as error:
+            message = f"Python fails here with {failure(error)}"
+            raise refused(Code.PYTHON_RAISED, message, self.function.place(node), labels=_where(error)) from None
 
 
-def _cure(node: ast.expr, used: Iterable[object]) -> str | None:
-    """What helps where a term was looked up in a collection of Python."""
-    if isinstance(node, ast.Subscript) and any(isinstance(value, Term) for value in used):
-        return "Python looks up constants only; what depends on the situation is a static: `theory.static(…)`"
-    return None
-
-
-def _where(error: Exception) -> tuple[Label, ...]:
+def _where(error: BaseException) -> tuple[Label, ...]:
     """Where in a called function an error was raised."""
     traceback = error.__traceback__
     while traceback is not None and traceback.tb_next is not None:

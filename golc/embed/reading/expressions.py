@@ -16,7 +16,7 @@ from golc.embed.names import golc_name, new_name
 from golc.embed.reading.annotations import Annotations
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.refusals import EXPRESSIONS, OPERATORS
-from golc.embed.terms import Named, expr, in_order
+from golc.embed.terms import Named, Variable, expr, in_order, plain_names
 from golc.embed.types import (
     BUILT_IN,
     TypeForm,
@@ -160,7 +160,19 @@ class Expressions(Annotations):
             called = isinstance(value, words.Operator)
             help_ = f"write `{value.name}(…)`" if called else f"it belongs in {value.place}"
             raise refused(Code.MISUSED_NAME, f"`{value.name}` is no term", span, help_)
-        return expr(value, span)
+        found = expr(value, span)
+        self._check_names(value, found, span)
+        return found
+
+    def _check_names(self, value: object, found: tree.Expr, span: Span) -> None:
+        """Raise ``Refused`` if something declared would be taken for a variable that has its name in the theory."""
+        if isinstance(value, Named) and value.kind in ("variable", "action", "exogenous action", "procedure"):
+            return
+        taken = {golc_name(name) for name in self.bound}
+        hidden = next((name for name in plain_names(found) if name in taken and not isinstance(name, Variable)), None)
+        if hidden is not None:
+            message = f"what is `{hidden}` in the theory cannot be meant where a variable has this name"
+            raise meaningless(message, span, "give the variable another name")
 
     def _literal(self, node: ast.Constant, value: object, span: Span) -> tree.Expr:
         if isinstance(value, float):
@@ -215,6 +227,7 @@ class Expressions(Annotations):
             return tree.SetLiteral((), span=span) if called is builtins.set else tree.ListLiteral((), span=span)
         kind = next((found for word, found in _QUANTIFIERS.items() if called is word), None)
         if kind is not None and len(node.args) == 1 and isinstance(node.args[0], ast.GeneratorExp):
+            self.arguments(node, 1)
             generator = node.args[0]
             with self.generators(generator.generators) as (binders, where):
                 return tree.Quantifier(kind, binders, where, self.expr(generator.elt), span=span)
@@ -276,12 +289,20 @@ class Expressions(Annotations):
         """The binders and the condition of ``… for x in t for y in u if φ``; the variables are bound while it lasts."""
         binders: list[tree.Binder] = []
         conditions: list[tree.Expr] = []
+        tests: list[ast.expr] = []
         with contextlib.ExitStack() as stack:
             for generator in generators:
+                if generator.is_async:
+                    raise meaningless("`async` has no meaning in a theory", self.span(generator.target), "write `for`")
                 if not isinstance(generator.target, ast.Name):
                     raise meaningless(
                         "one variable a `for`", self.span(generator.target), "write `for x in t for y in u`"
                     )
+                earlier = (each.id for test in tests for each in ast.walk(test) if isinstance(each, ast.Name))
+                if generator.target.id in earlier:
+                    message = f"`{generator.target.id}` means something else in the `if` before"
+                    raise meaningless(message, self.span(generator.target), "give this variable another name")
+                tests += generator.ifs
                 binders.append(self.binder(generator.target, generator.iter))
                 stack.enter_context(self.scope([generator.target.id]))
                 conditions += [self.expr(condition) for condition in generator.ifs]

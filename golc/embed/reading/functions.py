@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 import builtins
 import inspect
+import re
+import reprlib
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from functools import cache
@@ -14,11 +16,14 @@ from typing import Any
 from golc.diagnostics import Code, Label, Source, Span
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
-from golc.embed.places import caller, calling_frame, line_span, offset, source_of, span_of, tree_of
+from golc.embed.places import caller, calling_frame, offset, source_of, span_of, tree_of
 from golc.theory.suggest import did_you_mean
 
 ABSENT = object()
+_SHORT = reprlib.Repr()
+_SHORT.maxother = 100
 MUTABLE = (list, dict, set, bytearray)
+_DEFINED = re.compile(r"def[\s\\]+(\w+)")
 
 
 @dataclass(frozen=True)
@@ -44,9 +49,10 @@ class Function:
     @property
     def name_span(self) -> Span:
         """Where the name is written, behind ``def``."""
-        start = offset(self.source, self.node.lineno, self.node.col_offset)
-        start = self.source.text.index(self.node.name, start + len("def"))
-        return Span(self.source, start, start + len(self.node.name))
+        # Python's tree has letters of a name in their normal form, the source as they were typed.
+        found = _DEFINED.match(self.source.text, offset(self.source, self.node.lineno, self.node.col_offset))
+        assert found is not None, "a definition"
+        return Span(self.source, *found.span(1))
 
     @property
     def span(self) -> Span:
@@ -96,7 +102,10 @@ class Function:
                 return cells[name].cell_contents
             except ValueError:
                 return ABSENT
-        for scope in (self.frame.f_locals, self.function.__globals__, vars(builtins)):
+        scopes = [self.function.__globals__, vars(builtins)]
+        # What is bound around the function is meant by annotations; for Python itself its body does not see a class.
+        scopes.insert(len(scopes) if name in self.seen else 0, self.frame.f_locals)
+        for scope in scopes:
             if name in scope:
                 return scope[name]
         return ABSENT
@@ -109,7 +118,7 @@ class Function:
     def _changed(self, name: ast.Name, then: object, now: object) -> Exception:
         return refused(
             Code.PYTHON_CHANGED,
-            f"`{name.id}` was {then!r} when the function was declared and is {now!r} now",
+            f"`{name.id}` was {_shown(then)} when the function was declared and is {_shown(now)} now",
             self.place(name),
             f"give it to the function as a default: `def {self.node.name}(…, {name.id}={name.id})`",
             (Label(self.name_span, "the function is translated when the theory is complete"),),
@@ -119,6 +128,14 @@ class Function:
 def _alike(then: object, now: object) -> bool:
     """Whether one constant took the place of an equal one."""
     return type(then) is type(now) and isinstance(then, (int, str, float, bool, tuple)) and then == now
+
+
+def _shown(value: object) -> str:
+    """A Python value for a message; of one that cannot be shown its type."""
+    try:
+        return _SHORT.repr(value)
+    except Exception:
+        return f"a `{type(value).__name__}`"
 
 
 def _says_nothing(node: ast.stmt) -> bool:
@@ -141,13 +158,12 @@ def translated(function: object) -> Function:
         raise meaningless(f"the source of `{function.__name__}` is not to be found", span, help_)
     node = _definition(source, code)
     if node is None:
-        raise meaningless(
-            "only a function written with `def` can be translated", line_span(source, code.co_firstlineno)
-        )
+        raise meaningless("only a function written with `def` can be translated", span)
     made = Function(function, source, node, calling_frame())
     _check_head(made)
     made.fixed.update(_defaults(made))
-    made.seen.update({name: made.lookup(name) for name in _names(code)})
+    made.seen.update(dict.fromkeys(_names(code), ABSENT))
+    made.seen.update({name: made.lookup(name) for name in made.seen})
     return made
 
 

@@ -141,7 +141,7 @@ class Programs(Bodies):
     def _is_pythons(self, node: ast.expr) -> bool:
         """Whether a loop goes through something of Python that is no list of values of the language."""
         value = self.listed(node)
-        if isinstance(value, (list, tuple, range)):
+        if isinstance(value, (list, tuple, range, set, frozenset)):
             return not any(each is NOT_PYTHON for each in value) and any(_is_no_value(each) for each in value)
         return value is not NOT_PYTHON and not isinstance(value, Term)
 

@@ -135,7 +135,7 @@ class Brick:
         """
         self.statistics.aborts += 1
         self._exchange.forget()
-        deadline = self._tower.now() + max(self._timing.abort, ABORT_WAITS * self._tower.least_wait)
+        began = self._tower.now()
         unconfirmed: LinkError = SilentBrickError("the brick does not confirm the abort: it may go on", CHECK_HELP)
         while True:
             self._exchange.send(self._numbers.abort)
@@ -153,7 +153,7 @@ class Brick:
                 unconfirmed = PanicError("the brick panics and does not obey the abort", "restart its program by hand")
             except NonsenseError as error:
                 unconfirmed = error
-            if self._tower.now() >= deadline:
+            if self._tower.now() - began >= max(self._timing.abort, ABORT_WAITS * self._tower.least_wait):
                 raise unconfirmed
 
     def _attempt(self, action: _Action) -> int | None:

@@ -79,7 +79,7 @@ LAG_KEPT = 0.9
 """How much of the lag that was seen counts when the next message goes out."""
 ECHO_WAIT = 5.0
 """Real seconds for the echo of a tower that has echoed before, ..."""
-FIRST_ECHO_WAIT = 0.5
+FIRST_ECHO_WAIT = 2.0
 """... and for that of another one, which may have none."""
 
 

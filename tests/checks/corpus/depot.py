@@ -1,2 +1,6 @@
 def shake_it() -> None:
     pass
+
+
+def toll(b: int) -> int:
+    return 2 * b

@@ -1,0 +1,251 @@
+"""Python that could be read as something else than it says is refused at its place, or keeps its meaning."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from golc.diagnostics import Diagnostic
+from golc.embed.modules import read_theory
+from golc.syntax.unparse import unparse
+
+Text = Callable[[str], str]
+Wrong = Callable[[str], list[Diagnostic]]
+
+THEORY = """from __future__ import annotations
+from golc.embed import Theory, enum, exists, interval, say
+
+theory = Theory("lamps")
+room = theory.type("room", enum("hall", "attic"))
+hall, attic = room
+at = theory.fluent("at", room, hall)
+power = theory.fluent("power", int, 0)
+
+
+@theory.fluent
+def light(r: room) -> int:
+    return 0
+
+
+"""
+
+
+def _in_define(body: str, parameters: str = "") -> str:
+    return f"@theory.define\ndef d({parameters}):\n    return {body}\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "place", "message"),
+    [
+        pytest.param(
+            'here = theory.fluent("spot", room, hall)\n' + _in_define("here == spot", "spot: room"),
+            "here",
+            "what is `spot` in the theory cannot be meant where a variable has this name",
+            id="a handle whose name in the theory is that of a parameter",
+        ),
+        pytest.param(
+            "def like(x):\n    return exists(room, lambda r: light(r) == light(x))\n"
+            + _in_define("like(r)", "r: room"),
+            "exists(room, lambda r: light(r) == light(x))",
+            "another `r` cannot be meant where a variable has this name",
+            id="the variable of a lambda around another one with its name",
+        ),
+        pytest.param(
+            'HERE = at == hall\ntheory.goal("g", exists(room, lambda at: (light(at) == 1) & HERE))\n',
+            "exists(room, lambda at: (light(at) == 1) & HERE)",
+            "another `at` cannot be meant where a variable has this name",
+            id="a fluent under a lambda variable with its name",
+        ),
+        pytest.param(
+            "SIZES = {hall: 1}\n" + _in_define("power == SIZES.get(r, 0)", "r: room"),
+            "SIZES.get(r, 0)",
+            "Python looks a term up at once, before there is a situation",
+            id="the value of a dictionary for a variable",
+        ),
+        pytest.param(
+            "SIZES = {hall: 1}\n" + _in_define("power == SIZES.get(at, 0)"),
+            "SIZES.get(at, 0)",
+            "Python looks a term up at once, before there is a situation",
+            id="the value of a dictionary for a fluent",
+        ),
+        pytest.param(
+            "DARK = {hall}\ndef size(r):\n    return 1 if r in DARK else 2\n"
+            + _in_define("power == size(r)", "r: room"),
+            "r in DARK",
+            "Python looks a term up at once, before there is a situation",
+            id="a set of Python asked for a variable by a function of Python",
+        ),
+        pytest.param(
+            'def label(r):\n    return f"in {r}"\n@theory.proc\ndef p(r: room):\n    say(label(r))\n',
+            'f"in {r}"',
+            "Python writes a term at once, before there is a situation",
+            id="a variable written into a string by a function of Python",
+        ),
+        pytest.param(
+            _in_define("min((light(r) for r in room), default=7) == 3"),
+            "default=7",
+            "`min` takes no `default=`",
+            id="the default of a minimum",
+        ),
+        pytest.param(
+            _in_define("sum((light(r) for r in room), start=7) == 3"),
+            "start=7",
+            "`sum` takes no `start=`",
+            id="the start of a sum",
+        ),
+        pytest.param(
+            _in_define("any(x == z for x in room if x == y for y in room for z in room)", "y: room"),
+            "y",
+            "`y` means something else in the `if` before",
+            id="a condition before the variable that hides its own",
+        ),
+    ],
+)
+def test_it_is_refused(wrong_with: Wrong, code: str, place: str, message: str) -> None:
+    (found,) = wrong_with(THEORY + code)
+
+    assert (found.span.text, found.message) == (place, message)
+
+
+def test_a_loop_of_python_hides_a_parameter_with_its_name(text_of: Text) -> None:
+    text = text_of(
+        THEORY
+        + 'PAIRS = (("a", hall), ("b", attic))\n'
+        + '@theory.proc\ndef p(r: room):\n    for _, r in PAIRS:\n        say(f"{r}")\n'
+    )
+
+    assert text.endswith('proc p(r: room):\n    say "{hall}"\n    say "{attic}"\n')
+
+
+def test_the_order_of_a_set_of_python_is_the_same_each_time(text_of: Text) -> None:
+    text = text_of(
+        THEORY
+        + "S = {(hall, 2), (hall, 1), (attic, 3)}\n"
+        + '@theory.proc\ndef p():\n    for r, n in S:\n        say(f"{r} {n}")\n'
+    )
+
+    assert text.endswith('    say "{attic} {3}"\n    say "{hall} {1}"\n    say "{hall} {2}"\n')
+
+
+def test_a_loop_through_a_set_of_values_is_one_of_the_language(text_of: Text) -> None:
+    text = text_of(THEORY + 'S = {2, 1}\n@theory.proc\ndef p():\n    for n in S:\n        say(f"{n}")\n')
+
+    assert text.endswith('    for n in {1, 2}:\n        say "{n}"\n')
+
+
+@pytest.mark.parametrize(
+    ("code", "place", "message"),
+    [
+        ("import sys\ndef stop():\n    sys.exit(3)\n" + _in_define("power == stop()"), "stop()", "SystemExit: 3"),
+        (
+            'error = ValueError("one\\ntwo")\nerror.add_note("three")\nraise error\n',
+            "raise error",
+            "ValueError: one two",
+        ),
+    ],
+)
+def test_what_python_raises_is_said_in_one_line(wrong_with: Wrong, code: str, place: str, message: str) -> None:
+    (found,) = wrong_with(THEORY + code)
+
+    assert (found.span.text, found.message) == (place, f"Python fails here with {message}")
+
+
+@pytest.mark.parametrize(
+    ("code", "place", "message"),
+    [
+        ("N = 3\n" + _in_define("(yield N)"), "yield N", "`yield` has no meaning in a theory"),
+        ("N = 10**5000\n" + _in_define("power == N"), "N", "a number of so many digits is too long: the limit is 4000"),
+        (
+            _in_define("power == 1e9999999"),
+            "1e9999999",
+            "a number of so many digits is too long: the limit is 4000",
+        ),
+        (
+            "from unittest.mock import Mock\nM = Mock()\n" + _in_define("power == M"),
+            "M",
+            "a Python value of type `Mock` means nothing in a theory",
+        ),
+        (
+            "@theory.define\ndef ℌ():\n    return motion\n",
+            "motion",
+            "`motion` is neither a Python constant nor declared",
+        ),
+        (
+            "class Odd:\n    def __repr__(self):\n        return self.no\nodd = Odd()\n"
+            + _in_define("odd")
+            + "odd = 1\n",
+            "odd",
+            "`odd` was <Odd instance at PLACE> when the function was declared and is 1 now",
+        ),
+        (
+            'huge = theory.type("huge", interval(0, 10**12))\n' + _in_define("huge.top"),
+            "huge.top",
+            "the type `huge` has no symbol `top`",
+        ),
+    ],
+)
+def test_odd_python_is_said_at_its_place(wrong_with: Wrong, code: str, place: str, message: str) -> None:
+    (found,) = wrong_with(THEORY + code)
+
+    assert (found.span.text, re.sub("0x[0-9a-f]+", "PLACE", found.message)) == (place, message)
+
+
+def test_two_theories_have_each_their_own_module_beside_them(tmp_path: Path) -> None:
+    goals = []
+    for name, number in (("a", 1), ("b", 2)):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "sizes_beside.py").write_text(f"SIZE = {number}\n", encoding="utf-8")
+        path = tmp_path / name / "t.py"
+        path.write_text(THEORY + 'from sizes_beside import SIZE\ntheory.goal("g", power == SIZE)\n', encoding="utf-8")
+        goals.append(unparse(read_theory(path).file).splitlines()[-1])
+
+    assert goals == ["goal g: power = 1", "goal g: power = 2"]
+    assert "sizes_beside" not in sys.modules
+
+
+def test_a_function_may_import_and_print_while_others_are_translated(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "sizes_late.py").write_text("SIZE = 1\n", encoding="utf-8")
+    late = "def size():\n    import sizes_late\n    print('late')\n    return sizes_late.SIZE\n"
+    path = tmp_path / "t.py"
+    path.write_text(THEORY + late + _in_define("power == size()"), encoding="utf-8")
+
+    assert read_theory(path).findings.diagnostics == []
+    assert capsys.readouterr().out == ""
+
+
+def test_a_file_may_change_the_path_of_python(text_of: Text) -> None:
+    path = list(sys.path)
+    text_of(THEORY + "import sys\nsys.path.clear()\n")
+
+    assert sys.path == path
+
+
+def test_the_body_of_a_function_does_not_see_the_names_of_the_class_around_it(text_of: Text) -> None:
+    text = text_of(
+        THEORY + "N = 1\nclass Lamps:\n    N = 2\n    @theory.define\n    def d():\n        return power == N\n"
+    )
+
+    assert text.endswith("define d := power = 1\n")
+
+
+@pytest.mark.parametrize(
+    ("code", "place", "message"),
+    [
+        (
+            "import json\ntheory.define(json.dumps)\n",
+            "theory.define(json.dumps)",
+            "only a function written with `def` can be translated",
+        ),
+        ("@theory.axiom(3)\ndef a():\n    pass\n", "theory.axiom(3)", "a Python value of type `int` cannot be a name"),
+    ],
+)
+def test_a_decorator_says_what_it_cannot_take(wrong_with: Wrong, code: str, place: str, message: str) -> None:
+    (found,) = wrong_with(THEORY + code)
+
+    assert (found.span.text, found.message) == (place, message)
