@@ -51,15 +51,16 @@ def _checked(name: str) -> Source:
     """The source of a file that Python can compile."""
     from golc.syntax.text import read_source
 
-    read_source(name, empty="a theory in Python begins with `from golc.embed import Theory`")
+    read = read_source(name, empty="a theory in Python begins with `from golc.embed import Theory`")
     source = source_of(name)
     try:
         with warnings.catch_warnings():
             # Python warns when it is compiled to be run.
             warnings.simplefilter("ignore")
-            compile(source.text, name, "exec")
+            # Python keeps no lines of a file that says it is in an encoding that Python does not know.
+            compile(source.text or read.text.encode(), name, "exec")
     except SyntaxError as error:
-        raise UserError(_syntax(error, source)) from None
+        raise UserError(_syntax(error, source if source.text else read)) from None
     except (ValueError, RecursionError, MemoryError) as error:
         raise refused(Code.PYTHON_SYNTAX, f"Python cannot read this: {error}", Span(source, 0, 0)) from None
     return source

@@ -11,7 +11,7 @@ import contextlib
 import contextvars
 from collections.abc import Iterable, Iterator
 from decimal import Decimal
-from typing import Any, NoReturn
+from typing import Any, NoReturn, TypeVar
 
 from golc.diagnostics import NOWHERE, Code, Span
 from golc.embed.errors import Refused, meaningless, refused
@@ -22,6 +22,8 @@ from golc.syntax.walk import descendants
 from golc.theory.suggest import did_you_mean
 
 _LARGEST = 10**LONGEST_NUMBER
+T = TypeVar("T")
+MOST_ELEMENTS = 100_000
 SIGNS = "write `&`, `|` and `~` with each comparison in parentheses; or write it in a translated function"
 
 
@@ -314,9 +316,9 @@ def expr(value: object, span: Span) -> tree.Expr:
         case None:
             return tree.Nothing(span=span)
         case set() | frozenset():
-            return tree.SetLiteral(tuple(expr(element, span) for element in sorted(value, key=repr)), span=span)
+            return tree.SetLiteral(tuple(expr(each, span) for each in sorted(value, key=repr)), span=span)
         case list() | tuple() | range():
-            return tree.ListLiteral(tuple(expr(element, span) for element in value), span=span)
+            return tree.ListLiteral(tuple(expr(each, span) for each in elements(value, span)), span=span)
     # Asked of the class, because an object may have an answer for every name.
     as_term = getattr(type(value), "as_term", None)
     if as_term is not None and isinstance(term := as_term(value), Term):
@@ -330,14 +332,23 @@ def _real(value: float | Decimal, span: Span) -> tree.Expr:
         raise refused(Code.PYTHON_VALUE, f"{value} is no number of the language", span)
     if abs(number.adjusted()) > LONGEST_NUMBER or len(number.as_tuple().digits) > LONGEST_NUMBER:
         raise _too_long(span)
-    digits = Decimal(format(abs(number), "f"))
-    real = tree.Real(digits if digits.as_tuple().exponent else digits.quantize(Decimal("0.1")), span=span)
+    text = format(abs(number), "f")
+    real = tree.Real(Decimal(text if "." in text else f"{text}.0"), span=span)
     return real if number >= 0 else tree.Unary("-", real, span=span)
 
 
 def _too_long(span: Span) -> Refused:
     message = f"a number of so many digits is too long: the limit is {LONGEST_NUMBER}"
     return refused(Code.PYTHON_VALUE, message, span)
+
+
+def elements(values: Iterable[T], span: Span) -> Iterator[T]:
+    """What is to be written out, one by one. Raises ``Refused`` where there is no end of it."""
+    for count, value in enumerate(values):
+        if count == MOST_ELEMENTS:
+            message = f"this has more than {MOST_ELEMENTS} elements, which would all be written out"
+            raise refused(Code.PYTHON_VALUE, message, span, "write `interval(1, n)` for integers in a row")
+        yield value
 
 
 def plain_names(node: tree.Expr) -> Iterator[str]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import FunctionType
-from typing import Any, overload
+from typing import Any, TypeVar, overload
 
 from golc.diagnostics import Code, Span
 from golc.embed import words
@@ -25,6 +25,7 @@ from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
 
 MISSING: Any = object()
+Decorated = TypeVar("Decorated", Named, TypeHandle)
 
 WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
 """The kinds of declarations whose functions have none."""
@@ -107,7 +108,7 @@ class Theory:
                 self._types[made.name] = handle
                 return handle
 
-            return decorated if what is None else decorated(what)
+            return self._waiting(decorated) if what is None else decorated(what)
         ident, span = self._named(what)
         self._needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, span), span=span)
@@ -155,7 +156,7 @@ class Theory:
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Extern(ident, t.parameters(), self._returns(t), file, span=t.function.span)
 
-        return lambda function: self._translate(function, "extern", make, name)
+        return self._waiting(lambda function: self._translate(function, "extern", make, name))
 
     def fluent(
         self,
@@ -228,7 +229,7 @@ class Theory:
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Axiom(head, t.heads(), t.cases(), span=t.function.span)
 
-        return lambda function: self._translate(function, "fluent", make, head.text, "axiom")
+        return self._waiting(lambda function: self._translate(function, "fluent", make, head.text, "axiom"))
 
     def initially(self, condition: object) -> Any:
         """``initially φ``: a constraint on the first situation; with a formula, or a decorator."""
@@ -286,7 +287,7 @@ class Theory:
         def make(t: Translator, _: tree.Ident) -> tree.Declaration:
             return tree.Device(what, called, file, t.settings(), span=t.function.span)
 
-        return lambda function: self._translate(function, "device", make, kind, ("device", name))
+        return self._waiting(lambda function: self._translate(function, "device", make, kind, ("device", name)))
 
     # How it becomes a tree
 
@@ -304,8 +305,26 @@ class Theory:
         make: Callable[[Translator, tree.Ident], tree.Declaration],
     ) -> Any:
         if function is None:
-            return lambda decorated: self._translate(decorated, kind, make, name)
+            return self._waiting(lambda decorated: self._translate(decorated, kind, make, name))
         return self._translate(function, kind, make, name)
+
+    def _waiting(
+        self, decorate: Callable[[Callable[..., Any]], Decorated]
+    ) -> Callable[[Callable[..., Any]], Decorated]:
+        """A decorator; a theory is not complete as long as one waits for its function."""
+        span = caller()
+
+        def nothing() -> tree.Declaration:
+            help_ = "write it with `@` above a function, or give it all that it needs"
+            raise meaningless("this declares nothing", span, help_)
+
+        withdraw = self._parts.expect(nothing)
+
+        def decorated(function: Callable[..., Any]) -> Decorated:
+            withdraw()
+            return decorate(function)
+
+        return decorated
 
     def _translate(
         self,
@@ -358,7 +377,7 @@ class Theory:
             return self._translate(name, what, make)
         if name is not None and not isinstance(name, str):
             raise meaningless(f"the name of this {what} is a string", caller())
-        return lambda function: self._translate(function, what, make, name)
+        return self._waiting(lambda function: self._translate(function, what, make, name))
 
     def _add(self, node: Any, kind: str, heads: tuple[tree.Parameter, ...] = ()) -> Named:
         self._parts.put((SPACES.get(kind, "term"), node.name.text), lambda: node)

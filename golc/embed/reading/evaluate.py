@@ -85,7 +85,11 @@ class Evaluator:
         return self._run(node) if self._constant(node) else NOT_PYTHON
 
     def _symbol(self, base: TypeHandle, node: ast.Attribute) -> object:
-        names = base.symbols()
+        try:
+            names = base.symbols()
+        except UserError as error:
+            (found,) = error.diagnostics
+            raise refused(found.code, found.message, self.function.place(node), found.help) from None
         if node.attr not in names:
             message = f"the type `{base.name}` has no symbol `{node.attr}`"
             raise refused(Code.UNKNOWN_NAME, message, self.function.place(node), did_you_mean(node.attr, names))
