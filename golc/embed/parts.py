@@ -42,6 +42,20 @@ class Parts:
                     return
         self.entries.append((key, making))
 
+    def expect(self, missing: Making) -> Callable[[], None]:
+        """Something is to follow, or else ``missing`` says that it did not; what is called when it does follow.
+
+        In a notebook a cell that was wrong may never follow.
+        """
+        entry = (object(), missing)
+        if not _is_interactive():
+            self.entries.append(entry)
+
+        def withdraw() -> None:
+            self.entries = [each for each in self.entries if each is not entry]
+
+        return withdraw
+
     def include(self, other: Parts) -> None:
         """Add the declarations of another theory, those still to come among them."""
         self.entries.append((None, other))

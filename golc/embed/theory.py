@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import FunctionType
-from typing import Any, overload
+from typing import Any, TypeVar, overload
 
 from golc.diagnostics import Code, Span
 from golc.embed import words
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.names import golc_name, new_name
 from golc.embed.parts import Parts, Written
-from golc.embed.places import caller, calling_frame, frame_span
+from golc.embed.places import argument, caller, calling_frame, frame_span
 from golc.embed.reading.actions import Actions
 from golc.embed.reading.axioms import Axioms
 from golc.embed.reading.devices import Devices
@@ -19,11 +19,13 @@ from golc.embed.reading.functions import translated
 from golc.embed.reading.programs import Programs
 from golc.embed.reading.scenarios import Scenarios
 from golc.embed.reading.tables import table_of
+from golc.embed.symbols import no_strings
 from golc.embed.terms import Named, Term, expr
 from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
 
 MISSING: Any = object()
+Decorated = TypeVar("Decorated", Named, TypeHandle)
 
 WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
 """The kinds of declarations whose functions have none."""
@@ -85,7 +87,7 @@ class Theory:
 
             return self._decorated(what, name, "const", make)
         ident, span = self._named(what)
-        node = tree.Const(ident, expr(self._needed(value, span), span), span=span)
+        node = tree.Const(ident, expr(self._needed(value, span), argument(span, 1, "value")), span=span)
         self._types[ident.text] = node.value
         return self._add(node, "const")
 
@@ -106,7 +108,7 @@ class Theory:
                 self._types[made.name] = handle
                 return handle
 
-            return decorated if what is None else decorated(what)
+            return self._waiting(decorated) if what is None else decorated(what)
         ident, span = self._named(what)
         self._needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, span), span=span)
@@ -141,8 +143,11 @@ class Theory:
         ident, span = self._named(what)
         heads = self._heads(parameters or {}, span)
         meant = self._applied(self._needed(value, span), heads, span)
-        node = table_of(meant, span) if isinstance(meant, dict) else expr(meant, span)
-        return self._add(tree.Static(ident, heads, self._typed(type, span), node, span=span), "static", heads)
+        returned, place = self._typed(type, span), argument(span, 2, "value")
+        if isinstance(meant, dict):
+            no_strings(meant, heads, returned, self._types, place)
+        node = table_of(meant, place) if isinstance(meant, dict) else expr(meant, place)
+        return self._add(tree.Static(ident, heads, returned, node, span=span), "static", heads)
 
     def extern(self, *, file: str, name: str | None = None) -> Callable[[Callable[..., Any]], Named]:
         """``extern f(a: t): u from "helpers.py"``: a function that Python computes; a decorator of a function without
@@ -151,7 +156,7 @@ class Theory:
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Extern(ident, t.parameters(), self._returns(t), file, span=t.function.span)
 
-        return lambda function: self._translate(function, "extern", make, name)
+        return self._waiting(lambda function: self._translate(function, "extern", make, name))
 
     def fluent(
         self,
@@ -177,7 +182,8 @@ class Theory:
             return self._decorated(what, name, "fluent", make)
         ident, span = self._named(what)
         heads = self._heads(parameters or {}, span)
-        value = None if initial is MISSING else words.value_expr(self._applied(initial, heads, span), span)
+        place = argument(span, 2, "initial")
+        value = None if initial is MISSING else words.value_expr(self._applied(initial, heads, span), place)
         return self._add(tree.Fluent(ident, heads, self._typed(type, span), value, span=span), "fluent", heads)
 
     def define(self, function: Callable[..., Any] | None = None, *, name: str | None = None) -> Any:
@@ -223,7 +229,7 @@ class Theory:
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             return tree.Axiom(head, t.heads(), t.cases(), span=t.function.span)
 
-        return lambda function: self._translate(function, "fluent", make, head.text, "axiom")
+        return self._waiting(lambda function: self._translate(function, "fluent", make, head.text, "axiom"))
 
     def initially(self, condition: object) -> Any:
         """``initially φ``: a constraint on the first situation; with a formula, or a decorator."""
@@ -281,7 +287,7 @@ class Theory:
         def make(t: Translator, _: tree.Ident) -> tree.Declaration:
             return tree.Device(what, called, file, t.settings(), span=t.function.span)
 
-        return lambda function: self._translate(function, "device", make, kind, ("device", name))
+        return self._waiting(lambda function: self._translate(function, "device", make, kind, ("device", name)))
 
     # How it becomes a tree
 
@@ -299,8 +305,26 @@ class Theory:
         make: Callable[[Translator, tree.Ident], tree.Declaration],
     ) -> Any:
         if function is None:
-            return lambda decorated: self._translate(decorated, kind, make, name)
+            return self._waiting(lambda decorated: self._translate(decorated, kind, make, name))
         return self._translate(function, kind, make, name)
+
+    def _waiting(
+        self, decorate: Callable[[Callable[..., Any]], Decorated]
+    ) -> Callable[[Callable[..., Any]], Decorated]:
+        """A decorator; a theory is not complete as long as one waits for its function."""
+        span = caller()
+
+        def nothing() -> tree.Declaration:
+            help_ = "write it with `@` above a function, or give it all that it needs"
+            raise meaningless("this declares nothing", span, help_)
+
+        withdraw = self._parts.expect(nothing)
+
+        def decorated(function: Callable[..., Any]) -> Decorated:
+            withdraw()
+            return decorate(function)
+
+        return decorated
 
     def _translate(
         self,
@@ -353,7 +377,7 @@ class Theory:
             return self._translate(name, what, make)
         if name is not None and not isinstance(name, str):
             raise meaningless(f"the name of this {what} is a string", caller())
-        return lambda function: self._translate(function, what, make, name)
+        return self._waiting(lambda function: self._translate(function, what, make, name))
 
     def _add(self, node: Any, kind: str, heads: tuple[tree.Parameter, ...] = ()) -> Named:
         self._parts.put((SPACES.get(kind, "term"), node.name.text), lambda: node)

@@ -211,7 +211,7 @@ def type_node(value: object, span: Span) -> tree.Type:
         case UnionType():
             return joined(tuple(None if arg is type(None) else arg for arg in typing.get_args(value)), span).node
         case range(start=start, stop=stop, step=1):
-            return interval(start, stop - 1).node
+            return tree.IntervalType(expr(start, span), expr(stop - 1, span), span=span)
     help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
     if isinstance(value, Term):
         raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)

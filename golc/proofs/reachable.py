@@ -61,6 +61,8 @@ class Scope:
         return self.reason is None
 
     def __str__(self) -> str:
+        if self.reason is None and self.states == 1:
+            return "in the only state that can be reached"
         if self.reason is None:
             return f"in all {counted(self.states, 'state')} that can be reached"
         narrowed = f"; {counted(self.narrowed, 'question')} answered by those that can" if self.narrowed else ""

@@ -123,6 +123,14 @@ def test_an_unknown_outcome(tmp_path: Path) -> None:
     ]
 
 
+def test_what_an_agent_cannot_get_to_know_it_cannot_act_on(tmp_path: Path) -> None:
+    text = "domain trial\n\nfluent gate: bool = unknown\nfluent x: 0..3 = 0\n"
+    go = "\naction go:\n    poss gate\n    causes x := x + 4\n"
+    assert ("`go` can never be possible", ("in the only state that can be reached",)) in found(tmp_path, text + go)
+    happens = go.replace("action", "exog")
+    assert [notes[1] for _, notes in found(tmp_path, text + happens)] == ["this is so at first"]
+
+
 def test_what_is_known_is_told_apart(tmp_path: Path) -> None:
     text = (
         "domain trial\n\nfluent gate: bool = unknown\nfluent x: 0..3 = 0\n\naction look:\n    senses gate\n\n"

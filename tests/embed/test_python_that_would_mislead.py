@@ -11,7 +11,9 @@ import pytest
 
 from golc.diagnostics import Diagnostic
 from golc.embed.modules import read_theory
+from golc.syntax.tree import IntervalType
 from golc.syntax.unparse import unparse
+from golc.syntax.walk import descendants
 
 Text = Callable[[str], str]
 Wrong = Callable[[str], list[Diagnostic]]
@@ -249,3 +251,71 @@ def test_a_decorator_says_what_it_cannot_take(wrong_with: Wrong, code: str, plac
     (found,) = wrong_with(THEORY + code)
 
     assert (found.span.text, found.message) == (place, message)
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        'theory.goal("g")',
+        'theory.fluent(name="f")',
+        "theory.action()",
+        'theory.device("rcx")',
+        'theory.axiom("at")',
+        "theory.type()",
+    ],
+)
+def test_a_decorator_of_nothing_is_a_mistake(wrong_with: Wrong, code: str) -> None:
+    (found,) = wrong_with(THEORY + code + "\n")
+
+    assert (found.span.text, found.message) == (code, "this declares nothing")
+
+
+@pytest.mark.parametrize(
+    ("code", "place", "message"),
+    [
+        (
+            "import itertools\n@theory.proc\ndef p():\n    for n in itertools.count():\n        say('x')\n",
+            "itertools.count()",
+            "this has more than 100000 elements, which would all be written out",
+        ),
+        (
+            _in_define("power in range(10**30)"),
+            "range(10**30)",
+            "this has more than 100000 elements, which would all be written out",
+        ),
+        (
+            "PAIRS = zip([hall], [1])\n@theory.proc\ndef p():\n    for r, n in PAIRS:\n        say(f'{r}')\n",
+            "PAIRS",
+            "this can be gone through only once",
+        ),
+        (
+            "@theory.type\ndef storey():\n    return interval(0, 3)\n" + _in_define("power == storey.top"),
+            "storey.top",
+            "the values of `storey` cannot be listed here",
+        ),
+    ],
+)
+def test_what_has_no_end_or_no_values_is_said_at_its_place(
+    wrong_with: Wrong, code: str, place: str, message: str
+) -> None:
+    (found,) = wrong_with(THEORY + code)
+
+    assert (found.span.text, found.message) == (place, message)
+
+
+def test_a_large_real_is_written_in_full(text_of: Text) -> None:
+    assert text_of(THEORY + _in_define("power == 1e40")).endswith(f"define d := power = 1{'0' * 40}.0\n")
+
+
+def test_an_encoding_that_python_does_not_know_is_its_own_mistake(wrong_with: Wrong) -> None:
+    (found,) = wrong_with("# -*- coding: nonsense -*-\n" + THEORY)
+
+    assert found.message == "Python cannot read this: unknown encoding: nonsense"
+
+
+def test_the_bounds_of_a_range_stand_where_it_is_written(tmp_path: Path) -> None:
+    path = tmp_path / "t.py"
+    path.write_text(THEORY + "N = 0\n" + _in_define("any(light(hall) == n for n in range(N))"), encoding="utf-8")
+    spans = [each.span for each in descendants(read_theory(path).file) if isinstance(each, IntervalType)]
+
+    assert [span.text for span in spans] == ["range(N)"]

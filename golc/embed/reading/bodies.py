@@ -13,6 +13,7 @@ from golc.embed.errors import Refused, meaningless
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.expressions import Expressions
 from golc.embed.reading.refusals import STATEMENTS
+from golc.embed.terms import elements
 from golc.syntax import tree
 
 T = TypeVar("T")
@@ -58,9 +59,13 @@ class Bodies(Expressions):
         if values is NOT_PYTHON or not isinstance(values, Iterable):
             help_ = "Python goes through what it knows: a list, a tuple, a dictionary"
             raise meaningless("there is nothing to go through here", self.span(node.iter), help_)
+        if isinstance(values, Iterator) and not isinstance(node.iter, ast.Call):
+            help_ = "make a list of it: `list(…)`"
+            raise meaningless("this can be gone through only once", self.span(node.iter), help_)
         self.no_else(node)
         # The order of a set changes from run to run.
-        for value in sorted(values, key=repr) if isinstance(values, (set, frozenset)) else values:
+        ordered = sorted(values, key=repr) if isinstance(values, (set, frozenset)) else values
+        for value in elements(ordered, self.span(node.iter)):
             fixed, bound = dict(self.function.fixed), set(self.bound)
             try:
                 self._assign(node.target, value)

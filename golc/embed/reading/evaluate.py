@@ -77,14 +77,19 @@ class Evaluator:
                 value = None if called is print else self._run(node)
                 if value is None and isinstance(called, BuiltinFunctionType):
                     message = f"`{called.__name__}` gives no value, and what it does is not a part of the theory"
-                    raise meaningless(message, self.function.place(node))
+                    help_ = 'a program writes `say(f"…")`' if called is print else None
+                    raise meaningless(message, self.function.place(node), help_)
                 return value
             case ast.Constant() | ast.Lambda():
                 return NOT_PYTHON
         return self._run(node) if self._constant(node) else NOT_PYTHON
 
     def _symbol(self, base: TypeHandle, node: ast.Attribute) -> object:
-        names = base.symbols()
+        try:
+            names = base.symbols()
+        except UserError as error:
+            (found,) = error.diagnostics
+            raise refused(found.code, found.message, self.function.place(node), found.help) from None
         if node.attr not in names:
             message = f"the type `{base.name}` has no symbol `{node.attr}`"
             raise refused(Code.UNKNOWN_NAME, message, self.function.place(node), did_you_mean(node.attr, names))

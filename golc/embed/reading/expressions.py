@@ -143,7 +143,8 @@ class Expressions(Annotations):
                 case _:
                     text = self.expr(piece)
                     if not isinstance(text, tree.Message):
-                        help_ = f'write `f"{{{self.span(node).text}}}"`'
+                        written = self.span(node).text
+                        help_ = 'write one `f"… {e}"`' if '"' in written else f'write `f"{{{written}}}"`'
                         raise meaningless("a message is a string or an f-string", self.span(node), help_)
                     parts += text.parts
         return tree.Message(_joined(parts), span=self.span(node))
