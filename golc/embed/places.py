@@ -25,7 +25,7 @@ def source_of(filename: str) -> Source:
     lines = linecache.getlines(filename)
     known = _sources.get(filename)
     if known is None or known[0] is not lines:
-        known = _sources[filename] = (lines, Source(filename, "".join(lines)))
+        known = _sources[filename] = (lines, Source(filename, "".join(lines), python=True))
     return known[1]
 
 
