@@ -5,18 +5,22 @@ from __future__ import annotations
 import contextlib
 import linecache
 import os
+import re
 import sys
 import traceback
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import ModuleType, TracebackType
 
 from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
 from golc.embed.errors import refused
+from golc.embed.names import BUILTINS, golc_name
 from golc.embed.parts import Written
 from golc.embed.places import code_span, line_span, offset, source_of
 from golc.embed.theory import Theory
 from golc.theory.python_file import failure, logger
+from golc.theory.suggest import did_you_mean
 
 HERE = str(Path(__file__).parent)
 
@@ -40,6 +44,7 @@ def read_theory(path: str | Path) -> Written:
             raise
         except BaseException as error:
             raise UserError(*_raised(error, source), *_found_so_far(vars(module), source)) from None
+        # Plain functions that translated ones call run only now; they, too, may print and import what lies beside.
         return _only_theory(vars(module), source).written()
 
 
@@ -50,8 +55,11 @@ def _checked(name: str) -> Source:
     read = read_source(name, empty="a theory in Python begins with `from golc.embed import Theory`")
     source = source_of(name)
     try:
-        # Python keeps no lines of a file that says it is in an encoding that Python does not know.
-        compile(source.text or read.text.encode(), name, "exec")
+        with warnings.catch_warnings():
+            # Python warns when it is compiled to be run.
+            warnings.simplefilter("ignore")
+            # Python keeps no lines of a file that says it is in an encoding that Python does not know.
+            compile(source.text or read.text.encode(), name, "exec")
     except SyntaxError as error:
         raise UserError(_syntax(error, source if source.text else read)) from None
     except (ValueError, RecursionError, MemoryError) as error:
@@ -125,12 +133,24 @@ def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
         broken = source_of(error.filename or "")
         if broken.text:
             return (_syntax(error, broken),)
-    help_ = "install it where golc runs, or put it beside this file" if isinstance(error, ImportError) else None
-    return (
-        Diagnostic(
-            Code.PYTHON_RAISED, f"Python fails here with {failure(error)}", place, labels=tuple(labels), help=help_
-        ),
-    )
+    message = f"Python fails here with {failure(error)}"
+    return (Diagnostic(Code.PYTHON_RAISED, message, place, labels=tuple(labels), help=_cure(error, source)),)
+
+
+def _cure(error: BaseException, source: Source) -> str | None:
+    """What helps against an exception, if that can be seen."""
+    match error:
+        case ModuleNotFoundError():
+            return "install it where golc runs, or put it beside this file"
+        case ImportError(msg=text, name=str(module)) if missing := re.match(r"cannot import name '(\w+)'", text):
+            name = missing[1]
+            if golc_name(name) in BUILTINS:
+                return f"Python's own `{golc_name(name)}` has a meaning in a theory"
+            return did_you_mean(name, dir(sys.modules.get(module)))
+        case FileNotFoundError(filename=str(path)) if not Path(path).is_absolute():
+            if (Path(source.name).parent / path).exists():
+                return f'`Path(__file__).with_name("{path}")` is the file beside this one, wherever golc is run'
+    return None
 
 
 def _places(where: TracebackType | None) -> Iterator[Span]:
@@ -167,6 +187,8 @@ def _only_theory(names: Mapping[str, object], source: Source) -> Theory:
     start = Span(source, 0, 0)
     if not theories:
         help_ = 'begin it with `from golc.embed import Theory` and `theory = Theory("delivery")`'
+        if Theory in names.values():
+            help_ = "call the function that makes it where every import runs it: `theory = delivery(6)`"
         raise refused(Code.NO_THEORY, "the file makes no theory", start, help_)
     several = ", ".join(f"`{theory.name}`" for theory in theories)
     help_ = "name the one that is meant `theory`"

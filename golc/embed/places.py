@@ -80,6 +80,16 @@ def code_span(source: Source, code: CodeType, instruction: int, line: int) -> Sp
     return Span(source, offset(source, first, column), offset(source, last, end))
 
 
+def argument(call: Span, index: int, keyword: str) -> Span:
+    """Where the value of a parameter is written in a call; all of the call where that cannot be told."""
+    node = node_at(call)
+    if not isinstance(node, ast.Call):
+        return call
+    by_place = node.args[index : index + 1] if not any(isinstance(each, ast.Starred) for each in node.args) else []
+    found = [*by_place, *(each.value for each in node.keywords if each.arg == keyword)]
+    return span_of(call.source, found[0]) if found else call
+
+
 def caller() -> Span:
     """What the innermost code outside this package is just computing."""
     return frame_span(calling_frame())

@@ -143,8 +143,15 @@ def cure(found: Term, needed: Type) -> str | None:
     if found.type == REAL and "int" in needed.kinds:
         return f"`{shown(found)} // 1` is the integer below it"
     if found.type == STRING and not {"string", "int", "real"} & needed.kinds:
-        return "values of an enumeration stand without quotes"
+        return _without_quotes(found, needed)
     return None
+
+
+def _without_quotes(found: Term, needed: Type) -> str:
+    python = found.span.source.name.endswith(".py")
+    if python and isinstance(found, Literal) and str(needed).isidentifier():
+        return f"a string of Python is no symbol: write `{needed}.{found.value}`"
+    return "values of an enumeration stand without quotes"
 
 
 def _parentheses(kind: str) -> str:
