@@ -26,7 +26,7 @@ def source_of(filename: str) -> Source:
     lines = linecache.getlines(filename)
     known = _sources.get(filename)
     if known is None or known[0] is not lines:
-        source = Source(_shown(filename) if lines else filename, "".join(lines))
+        source = Source(_shown(filename), "".join(lines), python=True)
         known = _sources[filename] = (lines, source)
         if source.name != filename:
             # What is compiled out of a cell later has its new name, and finds its lines by that.
@@ -38,7 +38,8 @@ def source_of(filename: str) -> Source:
 def _shown(filename: str) -> str:
     """How a file is named: a cell of a notebook, which is compiled under the path of a file that is not there, as
     ``In [3]``, so that what it names lies in the folder of the notebook."""
-    if filename.startswith("<") or Path(filename).exists():
+    kept = linecache.cache.get(filename, ())
+    if filename.startswith("<") or Path(filename).exists() or len(kept) < 2 or kept[1] is not None:
         return filename
     shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
     numbers = getattr(getattr(shell, "compile", None), "_filename_map", {})
