@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import linecache
+import os
 import re
 import sys
 import traceback
@@ -78,8 +79,11 @@ def _syntax(error: SyntaxError, source: Source) -> Diagnostic:
 
 @contextlib.contextmanager
 def _running(module: ModuleType, folder: Path) -> Iterator[None]:
-    """The module can be found by its name and imports what lies beside it; the standard output is left to results."""
-    path, modules = list(sys.path), dict(sys.modules)
+    """The module can be found by its name and imports what lies beside it; the standard output is left to results.
+
+    What it changes of the path and the current folder holds for itself alone.
+    """
+    path, modules, here = list(sys.path), dict(sys.modules), _current_folder()
     sys.modules[module.__name__] = module
     sys.path.insert(0, str(folder.resolve()))
     try:
@@ -87,12 +91,22 @@ def _running(module: ModuleType, folder: Path) -> Iterator[None]:
             yield
     finally:
         sys.path[:] = path
+        if here is not None:
+            os.chdir(here)
         # What lies beside one theory is not meant by the next, and may have changed when this one is read again.
         for name in _beside(folder.resolve(), [each for each in sys.modules if each.partition(".")[0] not in modules]):
             del sys.modules[name]
         sys.modules.pop(module.__name__, None)
         if module.__name__ in modules:
             sys.modules[module.__name__] = modules[module.__name__]
+
+
+def _current_folder() -> str | None:
+    """Where paths begin, which a theory may change for itself; none if that folder is gone."""
+    try:
+        return os.getcwd()  # noqa: PTH109
+    except FileNotFoundError:
+        return None
 
 
 def _beside(folder: Path, names: list[str]) -> list[str]:
