@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN = $(VENV)/bin
 
-.PHONY: demo test thorough bench docs nqc clean
+.PHONY: demo test thorough fuzz bench docs nqc clean
 
 demo: $(VENV)/ready nqc
 	$(BIN)/golc check examples/delivery/delivery.gl
@@ -31,6 +31,10 @@ docs: $(VENV)/ready
 
 bench: $(VENV)/ready
 	$(BIN)/python tests/bench
+
+# Mutants of every domain go through every command; what golc fails on is kept in build/fuzz.
+fuzz: $(VENV)/ready
+	$(BIN)/python tests/fuzz --minutes 10 --seed $$(date +%s)
 
 $(VENV)/ready: pyproject.toml
 	@echo "setting up $(VENV); this takes a minute"

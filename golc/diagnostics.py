@@ -13,11 +13,13 @@ class Source:
     """A text with the name under which messages speak of it (a path as the user gave it, or ``<goal>``).
 
     ``editable``: it was read as golc text from a file, so that a fix may change it; no other text is ever changed.
+    ``python``: it is Python, so that advice is given in its words.
     """
 
     name: str
-    text: str
+    text: str = field(repr=False)
     editable: bool = False
+    python: bool = False
 
     @cached_property
     def line_starts(self) -> list[int]:

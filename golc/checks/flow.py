@@ -149,7 +149,8 @@ class Flow:
         if action.preconditions and action.name not in self._obligations.never_possible:
             here = self._connected.known((*place.guards, *place.known), (possible,))
             what = f"whether `{statement.span.text}` is ever possible here"
-            if here and self._never(place, (*here, possible), what, statement.span):
+            # An instance may never be possible whatever is known, though others of the action are.
+            if (here or statement.args) and self._never(place, (*here, possible), what, statement.span):
                 culprits = [known for known in here if self._never(place, (known, possible), "", statement.span)]
                 labels = [Label(known.term.span, _held(known)) for known in culprits or here]
                 message = f"`{statement.span.text}` can never be possible here"

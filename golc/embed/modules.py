@@ -4,18 +4,23 @@ from __future__ import annotations
 
 import contextlib
 import linecache
+import os
+import re
 import sys
 import traceback
+import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import ModuleType, TracebackType
 
 from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
 from golc.embed.errors import refused
+from golc.embed.names import BUILTINS, golc_name
 from golc.embed.parts import Written
 from golc.embed.places import code_span, line_span, offset, source_of
 from golc.embed.theory import Theory
 from golc.theory.python_file import failure, logger
+from golc.theory.suggest import did_you_mean
 
 HERE = str(Path(__file__).parent)
 
@@ -39,6 +44,7 @@ def read_theory(path: str | Path) -> Written:
             raise
         except BaseException as error:
             raise UserError(*_raised(error, source), *_found_so_far(vars(module), source)) from None
+        # Plain functions that translated ones call run only now; they, too, may print and import what lies beside.
         return _only_theory(vars(module), source).written()
 
 
@@ -49,8 +55,11 @@ def _checked(name: str) -> Source:
     read = read_source(name, empty="a theory in Python begins with `from golc.embed import Theory`")
     source = source_of(name)
     try:
-        # Python keeps no lines of a file that says it is in an encoding that Python does not know.
-        compile(source.text or read.text.encode(), name, "exec")
+        with warnings.catch_warnings():
+            # Python warns when it is compiled to be run.
+            warnings.simplefilter("ignore")
+            # Python keeps no lines of a file that says it is in an encoding that Python does not know.
+            compile(source.text or read.text.encode(), name, "exec")
     except SyntaxError as error:
         raise UserError(_syntax(error, source if source.text else read)) from None
     except (ValueError, RecursionError, MemoryError) as error:
@@ -70,8 +79,11 @@ def _syntax(error: SyntaxError, source: Source) -> Diagnostic:
 
 @contextlib.contextmanager
 def _running(module: ModuleType, folder: Path) -> Iterator[None]:
-    """The module can be found by its name and imports what lies beside it; the standard output is left to results."""
-    path, modules = list(sys.path), dict(sys.modules)
+    """The module can be found by its name and imports what lies beside it; the standard output is left to results.
+
+    What it changes of the path and the current folder holds for itself alone.
+    """
+    path, modules, here = list(sys.path), dict(sys.modules), _current_folder()
     sys.modules[module.__name__] = module
     sys.path.insert(0, str(folder.resolve()))
     try:
@@ -79,12 +91,22 @@ def _running(module: ModuleType, folder: Path) -> Iterator[None]:
             yield
     finally:
         sys.path[:] = path
+        if here is not None:
+            os.chdir(here)
         # What lies beside one theory is not meant by the next, and may have changed when this one is read again.
         for name in _beside(folder.resolve(), [each for each in sys.modules if each.partition(".")[0] not in modules]):
             del sys.modules[name]
         sys.modules.pop(module.__name__, None)
         if module.__name__ in modules:
             sys.modules[module.__name__] = modules[module.__name__]
+
+
+def _current_folder() -> str | None:
+    """Where paths begin, which a theory may change for itself; none if that folder is gone."""
+    try:
+        return os.getcwd()  # noqa: PTH109
+    except FileNotFoundError:
+        return None
 
 
 def _beside(folder: Path, names: list[str]) -> list[str]:
@@ -111,12 +133,24 @@ def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
         broken = source_of(error.filename or "")
         if broken.text:
             return (_syntax(error, broken),)
-    help_ = "install it where golc runs, or put it beside this file" if isinstance(error, ImportError) else None
-    return (
-        Diagnostic(
-            Code.PYTHON_RAISED, f"Python fails here with {failure(error)}", place, labels=tuple(labels), help=help_
-        ),
-    )
+    message = f"Python fails here with {failure(error)}"
+    return (Diagnostic(Code.PYTHON_RAISED, message, place, labels=tuple(labels), help=_cure(error, source)),)
+
+
+def _cure(error: BaseException, source: Source) -> str | None:
+    """What helps against an exception, if that can be seen."""
+    match error:
+        case ModuleNotFoundError():
+            return "install it where golc runs, or put it beside this file"
+        case ImportError(msg=text, name=str(module)) if missing := re.match(r"cannot import name '(\w+)'", text):
+            name = missing[1]
+            if golc_name(name) in BUILTINS:
+                return f"Python's own `{golc_name(name)}` has a meaning in a theory"
+            return did_you_mean(name, dir(sys.modules.get(module)))
+        case FileNotFoundError(filename=str(path)) if not Path(path).is_absolute():
+            if (Path(source.name).parent / path).exists():
+                return f'`Path(__file__).with_name("{path}")` is the file beside this one, wherever golc is run'
+    return None
 
 
 def _places(where: TracebackType | None) -> Iterator[Span]:
@@ -153,6 +187,8 @@ def _only_theory(names: Mapping[str, object], source: Source) -> Theory:
     start = Span(source, 0, 0)
     if not theories:
         help_ = 'begin it with `from golc.embed import Theory` and `theory = Theory("delivery")`'
+        if Theory in names.values():
+            help_ = "call the function that makes it where every import runs it: `theory = delivery(6)`"
         raise refused(Code.NO_THEORY, "the file makes no theory", start, help_)
     several = ", ".join(f"`{theory.name}`" for theory in theories)
     help_ = "name the one that is meant `theory`"

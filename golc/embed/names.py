@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import keyword
 import re
+import unicodedata
 
 from golc.diagnostics import Code, Span
 from golc.embed.errors import refused
@@ -43,9 +44,20 @@ def new_name(text: object, span: Span, used: bool = False) -> tree.Ident:
     """A name that comes into being at a place, or is only ``used`` there. Raises ``Refused`` if it cannot be one."""
     if not isinstance(text, str) or not _NAME.fullmatch(text):
         what = f"`{text}`" if isinstance(text, str) else described(text)
-        help_ = "begin it with a letter and go on with letters, digits and `_`"
-        raise refused(Code.PYTHON_MEANING, f"{what} cannot be a name", span, help_)
+        help_ = "begin it with a letter and go on with letters (without accents), digits and `_`"
+        near = _nearest_name(text) if isinstance(text, str) else ""
+        raise refused(
+            Code.PYTHON_MEANING, f"{what} cannot be a name", span, f"{help_}, as in `{near}`" if near else help_
+        )
     if text in RESERVED and not used:
         help_ = f"choose another name, for example `{text}_` or `the_{text}`"
         raise refused(Code.RESERVED, f"`{text}` is a word of the language and cannot be a name", span, help_)
     return tree.Ident(text, span=span)
+
+
+def _nearest_name(text: str) -> str:
+    """A text as a name: letters without their accents, `_` for all else; empty if no letter begins it then."""
+    plain = unicodedata.normalize("NFKD", text.replace("ß", "ss"))
+    letters = "".join(each for each in plain if not unicodedata.combining(each))
+    name = re.sub(r"[^A-Za-z0-9]+", "_", letters).strip("_")
+    return name if _NAME.fullmatch(name) else ""

@@ -6,6 +6,7 @@ import ast
 import linecache
 import sys
 from functools import cache
+from pathlib import Path
 from types import CodeType, FrameType
 
 from golc.diagnostics import Source, Span
@@ -25,8 +26,24 @@ def source_of(filename: str) -> Source:
     lines = linecache.getlines(filename)
     known = _sources.get(filename)
     if known is None or known[0] is not lines:
-        known = _sources[filename] = (lines, Source(filename, "".join(lines)))
+        source = Source(_shown(filename), "".join(lines), python=True)
+        known = _sources[filename] = (lines, source)
+        if source.name != filename:
+            # What is compiled out of a cell later has its new name, and finds its lines by that.
+            linecache.cache[source.name] = (len(source.text), None, lines, source.name)
+            _sources[source.name] = known
     return known[1]
+
+
+def _shown(filename: str) -> str:
+    """How a file is named: a cell of a notebook, which is compiled under the path of a file that is not there, as
+    ``In [3]``, so that what it names lies in the folder of the notebook."""
+    kept = linecache.cache.get(filename, ())
+    if filename.startswith("<") or Path(filename).exists() or len(kept) < 2 or kept[1] is not None:
+        return filename
+    shell = getattr(sys.modules.get("IPython"), "get_ipython", lambda: None)()
+    numbers = getattr(getattr(shell, "compile", None), "_filename_map", {})
+    return f"In [{numbers.get(filename, Path(filename).stem)}]"
 
 
 @cache
@@ -78,6 +95,16 @@ def code_span(source: Source, code: CodeType, instruction: int, line: int) -> Sp
     if first is None or last is None or column is None or end is None:
         return line_span(source, line)
     return Span(source, offset(source, first, column), offset(source, last, end))
+
+
+def argument(call: Span, index: int, keyword: str) -> Span:
+    """Where the value of a parameter is written in a call; all of the call where that cannot be told."""
+    node = node_at(call)
+    if not isinstance(node, ast.Call):
+        return call
+    by_place = node.args[index : index + 1] if not any(isinstance(each, ast.Starred) for each in node.args) else []
+    found = [*by_place, *(each.value for each in node.keywords if each.arg == keyword)]
+    return span_of(call.source, found[0]) if found else call
 
 
 def caller() -> Span:

@@ -27,6 +27,10 @@ MOST_ELEMENTS = 100_000
 SIGNS = "write `&`, `|` and `~` with each comparison in parentheses; or write it in a translated function"
 
 
+COMPARISONS: dict[type[ast.cmpop], str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
+
+
 class Variable(str):
     """The name of a bound variable; its identity tells it from others with this name."""
 
@@ -47,7 +51,7 @@ def translating() -> Iterator[None]:
 
 
 class Term:
-    """A term or formula of the language; its ``node`` is the tree that was built."""
+    """A term or formula of the language, a ``Named`` or a ``Compound``; its ``node`` is the tree that was built."""
 
     __slots__ = ("node",)
 
@@ -146,7 +150,7 @@ class Term:
 
     def __getitem__(self, index: object) -> Term:
         span, (base, at) = _place(2)
-        return Term(tree.Index(expr(self, base), expr(index, at), span=span))
+        return Compound(tree.Index(expr(self, base), expr(index, at), span=span))
 
     def __getattr__(self, name: str) -> NoReturn:
         raise AttributeError(f"a term has no attribute `{name}`", name=name, obj=self)
@@ -165,6 +169,15 @@ class Term:
     def __len__(self) -> int:
         help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
         raise meaningless("Python's `len` answers at once, before there is a situation", caller(), help_)
+
+
+class Compound(Term):
+    """What operators, functions and calls have built.
+
+    It is a class beside ``Named``, not above it: Python would ask the right side of a comparison first.
+    """
+
+    __slots__ = ()
 
 
 class Named(Term):
@@ -198,7 +211,7 @@ class Named(Term):
         ordered = in_order(self, args, given, span)
         exact = len(places) == len(ordered)
         nodes = tuple(expr(value, places[i] if exact else span) for i, value in enumerate(ordered))
-        return Term(tree.Apply(tree.Ident(self.name, span=head), nodes, span=span))
+        return Compound(tree.Apply(tree.Ident(self.name, span=head), nodes, span=span))
 
 
 def in_order(
@@ -234,20 +247,30 @@ def variable(name: str, span: Span = NOWHERE) -> Named:
 def binary(sign: Any, left: object, right: object) -> Term:
     """An infix operation at the place where Python computes it."""
     span, (first, second) = _place(2)
-    return Term(tree.Binary(sign, expr(left, first), expr(right, second), span=span))
+    if _turned(sign, node_at(span)):
+        sign, left, right = TURNED[sign], right, left
+    return Compound(tree.Binary(sign, expr(left, first), expr(right, second), span=span))
+
+
+def _turned(sign: str, node: ast.AST | None) -> bool:
+    """Whether Python has asked the right side of a comparison, because the left one is a number or a string."""
+    match node:
+        case ast.Compare(left=left, ops=[op]):
+            return isinstance(left, ast.Constant) if sign in ("=", "!=") else COMPARISONS.get(type(op), sign) != sign
+    return False
 
 
 def unary(sign: Any, operand: object) -> Term:
     """A prefix operation at the place where Python computes it."""
     span, (place,) = _place(1)
-    return Term(tree.Unary(sign, expr(operand, place), span=span))
+    return Compound(tree.Unary(sign, expr(operand, place), span=span))
 
 
 def function(name: str, args: tuple[object, ...]) -> Term:
     """A function of the language applied to arguments."""
     span, places = _place(len(args))
     nodes = tuple(expr(arg, place) for arg, place in zip(args, places, strict=True))
-    return Term(tree.Apply(tree.Ident(name, span=span), nodes, span=span))
+    return Compound(tree.Apply(tree.Ident(name, span=span), nodes, span=span))
 
 
 def _place(count: int) -> tuple[Span, list[Span]]:
@@ -348,7 +371,7 @@ def described(value: object) -> str:
 
 def _instead(value: object) -> str:
     if isinstance(value, dict):
-        return "a table is the value of a static: `theory.static(…)`"
+        return "a table is the value of a static: `start = theory.static(…)`; a term can use it: `start(x)`"
     if callable(value):
         return "call it, or declare it with a decorator of the theory"
     return "numbers, strings, truth values, `None`, lists, sets and what the theory declares can stand here"

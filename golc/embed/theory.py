@@ -11,7 +11,7 @@ from golc.embed import words
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.names import golc_name, new_name
 from golc.embed.parts import Parts, Written
-from golc.embed.places import caller, calling_frame, frame_span
+from golc.embed.places import argument, caller, calling_frame, frame_span
 from golc.embed.reading.actions import Actions
 from golc.embed.reading.axioms import Axioms
 from golc.embed.reading.devices import Devices
@@ -19,6 +19,7 @@ from golc.embed.reading.functions import translated
 from golc.embed.reading.programs import Programs
 from golc.embed.reading.scenarios import Scenarios
 from golc.embed.reading.tables import table_of
+from golc.embed.symbols import no_strings
 from golc.embed.terms import Named, Term, expr
 from golc.embed.types import TypeHandle, elsewhere, type_node
 from golc.syntax import tree
@@ -86,7 +87,7 @@ class Theory:
 
             return self._decorated(what, name, "const", make)
         ident, span = self._named(what)
-        node = tree.Const(ident, expr(self._needed(value, span), span), span=span)
+        node = tree.Const(ident, expr(self._needed(value, span), argument(span, 1, "value")), span=span)
         self._types[ident.text] = node.value
         return self._add(node, "const")
 
@@ -142,8 +143,11 @@ class Theory:
         ident, span = self._named(what)
         heads = self._heads(parameters or {}, span)
         meant = self._applied(self._needed(value, span), heads, span)
-        node = table_of(meant, span) if isinstance(meant, dict) else expr(meant, span)
-        return self._add(tree.Static(ident, heads, self._typed(type, span), node, span=span), "static", heads)
+        returned, place = self._typed(type, span), argument(span, 2, "value")
+        if isinstance(meant, dict):
+            no_strings(meant, heads, returned, self._types, place)
+        node = table_of(meant, place) if isinstance(meant, dict) else expr(meant, place)
+        return self._add(tree.Static(ident, heads, returned, node, span=span), "static", heads)
 
     def extern(self, *, file: str, name: str | None = None) -> Callable[[Callable[..., Any]], Named]:
         """``extern f(a: t): u from "helpers.py"``: a function that Python computes; a decorator of a function without
@@ -178,7 +182,8 @@ class Theory:
             return self._decorated(what, name, "fluent", make)
         ident, span = self._named(what)
         heads = self._heads(parameters or {}, span)
-        value = None if initial is MISSING else words.value_expr(self._applied(initial, heads, span), span)
+        place = argument(span, 2, "initial")
+        value = None if initial is MISSING else words.value_expr(self._applied(initial, heads, span), place)
         return self._add(tree.Fluent(ident, heads, self._typed(type, span), value, span=span), "fluent", heads)
 
     def define(self, function: Callable[..., Any] | None = None, *, name: str | None = None) -> Any:

@@ -10,7 +10,7 @@ from golc.diagnostics import Code, Span
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import caller
-from golc.embed.terms import Named, Term, binary, expr, function, plain_names, variable
+from golc.embed.terms import Compound, Named, Term, binary, expr, function, plain_names, variable
 from golc.embed.types import type_node
 from golc.syntax import tree
 from golc.syntax.walk import descendants
@@ -103,7 +103,7 @@ def _function(name: str) -> Operator:
 def _epistemic(kind: Any) -> Operator:
     def build(body: object) -> Term:
         span = caller()
-        return Term(tree.Epistemic(kind, expr(body, span), span=span))
+        return Compound(tree.Epistemic(kind, expr(body, span), span=span))
 
     return Operator(kind, build)
 
@@ -126,7 +126,7 @@ def _quantifier(kind: Any) -> Operator:
         def of(function: Callable[..., object]) -> tree.Expr:
             return of_variables(expr(function(*variables), span), variables, span)
 
-        return Term(tree.Quantifier(kind, binders, None if where is None else of(where), of(body), span=span))
+        return Compound(tree.Quantifier(kind, binders, None if where is None else of(where), of(body), span=span))
 
     return Operator(kind, build)
 

@@ -123,16 +123,15 @@ def mismatch(
 def cure(found: Term, needed: Type) -> str | None:
     """What helps against a term of the wrong type, if that can be seen."""
     have, want = collection(found.type), collection(needed)
-    if isinstance(found, Literal) and found.value is None and needed == BOOL:
-        return "a truth value is `true` or `false`"
+    python = found.span.source.python
+    if isinstance(found, Literal) and needed == BOOL:
+        return "a truth value is `True` or `False`" if python else "a truth value is `true` or `false`"
     if isinstance(found, Literal) and found.value is None:
         return f"the type `{needed}?` has the value `none`, too"
-    if needed == BOOL and isinstance(found, Quantified):
+    if needed == BOOL and isinstance(found, Quantified) and not python:
         return _parentheses(found.kind)
-    if needed == BOOL and isinstance(found, Literal):
-        return "a truth value is `true` or `false`"
     if needed == BOOL:
-        return f"compare it: `{shown(found)} = …`"
+        return f"compare it: `{shown(found)} {'==' if python else '='} …`"
     if have and want and have.kind != want.kind and not have.element.kinds:
         return f"the empty {want.kind} is `{'{}' if want.kind == 'set' else '[]'}`"
     if have and want and have.kind != want.kind:
@@ -144,8 +143,15 @@ def cure(found: Term, needed: Type) -> str | None:
     if found.type == REAL and "int" in needed.kinds:
         return f"`{shown(found)} // 1` is the integer below it"
     if found.type == STRING and not {"string", "int", "real"} & needed.kinds:
-        return "values of an enumeration stand without quotes"
+        return _without_quotes(found, needed)
     return None
+
+
+def _without_quotes(found: Term, needed: Type) -> str:
+    python = found.span.source.python
+    if python and isinstance(found, Literal) and str(needed).isidentifier():
+        return f"a string of Python is no symbol: write `{needed}.{found.value}`"
+    return "values of an enumeration stand without quotes"
 
 
 def _parentheses(kind: str) -> str:

@@ -228,6 +228,8 @@ def test_each_part_that_keeps_an_action_from_being_possible(lift: golc.Theory) -
         ),
     ]
     assert [part.span.text for part in lift.why_not(state, "jump(9)")] == ["at + by in floor"]
+    # A person who prints them does not want the text of the file.
+    assert "domain" not in repr(lift.why_not(state, "jump(9)"))
 
 
 def test_an_impossible_action_cannot_be_done_and_the_error_says_why(lift: golc.Theory) -> None:

@@ -169,6 +169,10 @@ CASES = {
         "action a:\n    poss gate = open\nproc control:\n    test gate = closed\n    a\n",
         [("GL072", 12, "`a` can never be possible here")],
     ),
+    "an instance that is never possible, though others are": (
+        "action a(n: small):\n    poss n != 2\n    causes x := n\nproc control:\n    a(1)\n    a(2)\n",
+        [("GL072", 13, "`a(2)` can never be possible here")],
+    ),
     "an action that somebody may make possible meanwhile": (
         "action a:\n    poss gate = open\nexog opens:\n    causes gate := open\n"
         "proc control:\n    test gate = closed\n    a\n",

@@ -161,7 +161,7 @@ def test_plain_functions_build_terms_where_they_are_called(text_of: Text) -> Non
         """
     )
 
-    assert "poss to >= 2 and to <= 4" in text
+    assert "poss 2 <= to and to <= 4" in text
 
 
 def test_a_condition_of_python_chooses_a_part_of_the_program(text_of: Text) -> None:
@@ -308,3 +308,91 @@ def test_a_failure_in_a_called_function_shows_both_places(wrong_with: Wrong) -> 
 
     assert (found.code.code, found.span.line) == ("GL141", 5)
     assert [(label.span.line, label.text) for label in found.labels] == [(8, "called here")]
+
+
+def test_the_values_of_a_type_can_be_kept_in_lists_and_counted(text_of: Text) -> None:
+    text = text_of(
+        """
+        from golc.embed import Theory, enum, interval
+
+        theory = Theory("blocks")
+        block = theory.type("block", enum("a", "b", "c"))
+        blocks = list(block)
+        theory.const("how_many", len(block) + len(tuple(theory.type("row", interval(1, 4)))))
+        theory.fluent("above", block, blocks[-1])
+        """
+    )
+
+    assert text == (
+        "domain blocks\n\ntype block = {a, b, c}\ntype row = 1..4\n\nconst how_many = 7\n\nfluent above: block = c\n"
+    )
+
+
+TOWNS = """
+from golc.embed import Theory, causes, enum, poss
+
+theory = Theory("roads")
+town = theory.type("town", enum("Bonn", "Essen"))
+at = theory.fluent("at", town, town.Bonn)
+"""
+
+
+@pytest.mark.parametrize(
+    ("line", "message", "place", "help_"),
+    [
+        (
+            'theory.static("far", int, {"Bonn": 1, "Essen": 2}, parameters={"t": town})',
+            "the table has the string 'Bonn' where `town` has symbols",
+            '{"Bonn": 1, "Essen": 2}',
+            "`symbol = {str(each): each for each in town}` finds them: `symbol['Bonn']`",
+        ),
+        (
+            'theory.static("next", town, {t: "Bon" for t in town}, parameters={"t": town})',
+            "the table has the string 'Bon' where `town` has symbols",
+            '{t: "Bon" for t in town}',
+            "`symbol = {str(each): each for each in town}` finds them: `symbol['Bonn']`",
+        ),
+        (
+            'theory.fluent("to", town, initial={town.Bonn: town.Essen})',
+            "a dictionary means nothing in a theory",
+            "{town.Bonn: town.Essen}",
+            "a table is the value of a static: `start = theory.static(…)`; a term can use it: `start(x)`",
+        ),
+        (
+            'theory.type("town", enum("Bad Godesberg"))',
+            "`Bad Godesberg` cannot be a name",
+            'enum("Bad Godesberg")',
+            "begin it with a letter and go on with letters (without accents), digits and `_`, as in `Bad_Godesberg`",
+        ),
+    ],
+)
+def test_a_table_from_a_file_is_told_what_is_missing(
+    wrong_with: Wrong, line: str, message: str, place: str, help_: str
+) -> None:
+    found = wrong_with(TOWNS + line + "\n")
+
+    assert [(each.message, each.span.text, each.help) for each in found] == [(message, place, help_)]
+
+
+@pytest.mark.parametrize(
+    ("text", "help_"),
+    [
+        ("from golc.embed import Theory, intervall", "did you mean `interval`?"),
+        ("from golc.embed import Theory, abs_", "Python's own `abs` has a meaning in a theory"),
+        ("from golc.embed import Theory, turtle", None),
+        ("import golc_turtle", "install it where golc runs, or put it beside this file"),
+        (
+            'open("theory.py")',
+            '`Path(__file__).with_name("theory.py")` is the file beside this one, wherever golc is run',
+        ),
+        ('open("nowhere.csv")', None),
+        (
+            "from golc.embed import Theory\ndef lifts(n):\n    return Theory('lifts')",
+            "call the function that makes it where every import runs it: `theory = delivery(6)`",
+        ),
+    ],
+)
+def test_what_helps_where_a_file_fails(wrong_with: Wrong, text: str, help_: str | None) -> None:
+    (found,) = wrong_with(text + "\n")
+
+    assert found.help == help_

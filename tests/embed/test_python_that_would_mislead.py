@@ -9,8 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from golc.diagnostics import Diagnostic
+from golc.diagnostics import Code, Diagnostic
 from golc.embed.modules import read_theory
+from golc.loading import examine
 from golc.syntax.tree import IntervalType
 from golc.syntax.unparse import unparse
 from golc.syntax.walk import descendants
@@ -319,3 +320,21 @@ def test_the_bounds_of_a_range_stand_where_it_is_written(tmp_path: Path) -> None
     spans = [each.span for each in descendants(read_theory(path).file) if isinstance(each, IntervalType)]
 
     assert [span.text for span in spans] == ["range(N)"]
+
+
+def test_a_file_may_go_into_another_folder(text_of: Text, tmp_path: Path) -> None:
+    here = Path.cwd()
+    text_of(THEORY + f"import os\nos.chdir({str(tmp_path)!r})\n")
+
+    assert Path.cwd() == here
+
+
+@pytest.mark.parametrize(
+    ("condition", "help_"),
+    [("power", "compare it: `power == …`"), ("not 3", "a truth value is `True` or `False`")],
+)
+def test_help_with_types_speaks_python(tmp_path: Path, condition: str, help_: str) -> None:
+    path = tmp_path / "t.py"
+    path.write_text(THEORY + _in_define(f"{condition} and at == hall"), encoding="utf-8")
+
+    assert [each.help for each in examine(path).findings if each.code is Code.TYPE_MISMATCH] == [help_]

@@ -29,7 +29,11 @@ lit = theory.fluent("lit", initial=False, parameters={"f": floor})
     [
         ("at == 1", "at = 1"),
         ("at != 1", "at != 1"),
-        ("1 < at", "at > 1"),
+        ("1 < at", "1 < at"),
+        ("7 - 2 >= at", "5 >= at"),
+        ("1 == at", "1 = at"),
+        ("lit(1) == True", "lit(1) = true"),
+        ("count(floor, lambda n: lit(n)) <= at", "(count n: floor. lit(n)) <= at"),
         ("(at < 2) & (at <= 3)", "at < 2 and at <= 3"),
         ("(at > 2) | ~(at >= 3)", "at > 2 or not at >= 3"),
         ("at + 1 - 2 * at // 3 % 4 == -at", "at + 1 - 2 * at // 3 % 4 = -at"),

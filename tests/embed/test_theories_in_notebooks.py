@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import count
 from linecache import cache
+from pathlib import Path
 
 import pytest
 
+import golc
 from golc.embed import Theory
 from golc.syntax.unparse import unparse
 
@@ -51,3 +53,28 @@ def test_a_cell_that_is_run_again_declares_anew(cell: Cell, names: dict[str, obj
         "axiom at:\n    after up := 7\n    otherwise unchanged\n\ngoal top: at = 7\n\ndevice rcx:\n    7 up\n"
     )
     assert [source.name for source in written.sources][:2] == ["<ipython-input-1-test>", "<ipython-input-2-test>"]
+
+
+def test_files_that_a_cell_names_lie_in_the_folder_of_the_notebook(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "helpers.py").write_text("def price(n):\n    return 2 * n\n", encoding="utf-8")
+    name = str(tmp_path / "kernel" / "1234.py")
+    text = (
+        "from golc.embed import Theory, interval\ntheory = Theory('shop')\n"
+        "def cheap(n):\n    return price(n) < 4\n"
+        "@theory.extern(file='helpers.py')\ndef price(n: interval(1, 3)) -> int: ...\n"
+        "@theory.define\ndef bargain(n: interval(1, 3)):\n    return cheap(n)\n"
+    )
+    cache[name] = (len(text), None, text.splitlines(keepends=True), name)
+    names: dict[str, object] = {}
+    exec(compile(text, name, "exec"), names)
+    theory = names["theory"]
+    assert isinstance(theory, Theory)
+
+    shop = golc.load(theory)
+
+    assert [shop.value(shop.initial(), f"price({n})") for n in (1, 3)] == [2, 6]
+    assert [source.name for source in theory.written().sources] == ["In [1234]"]
+    assert [finding.span.source.name for finding in golc.check(theory).findings] == ["In [1234]"]

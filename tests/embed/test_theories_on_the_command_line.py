@@ -93,3 +93,23 @@ def test_a_constant_is_replaced(folder: Path, capsys: pytest.CaptureFixture[str]
 
     assert invoke(["plan", "lift.py", "--goal", "high", "-D", "top=5"]) == 0
     assert capsys.readouterr().out == "up\nup\nup\nup\n"
+
+
+def test_what_plain_functions_print_and_import_stays_out_of_the_results(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "floors.py").write_text("TOP = 3\n", encoding="utf-8")
+    path = tmp_path / "lift.py"
+    path.write_text(
+        "from golc.embed import Theory, causes, poss\n\n\ndef top():\n    from floors import TOP\n\n"
+        "    print('asked')\n    return TOP\n\n\n"
+        "theory = Theory('lift')\nat = theory.fluent('at', int, 1)\n\n\n@theory.action\ndef up():\n"
+        "    poss(at < top())\n    causes(at, at + 1)\n",
+        encoding="utf-8",
+    )
+
+    assert invoke(["plan", str(path), "--goal", "at = 3"]) == 0
+
+    out, err = capfd.readouterr()
+    assert out == "up\nup\n"
+    assert "asked" in err

@@ -25,6 +25,9 @@ SLOW = 10.0
 """Seconds of processor time that a stage may take for a file of up to 1,000 lines. Programs (``test``) may take longer:
 a search gives up after a number of steps."""
 
+LARGE = 1000
+"""How many MB an input may take in addition to what those before it took, unless it is a search that keeps states."""
+
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="tests/fuzz", description="Look for inputs that golc fails on.")
@@ -83,6 +86,8 @@ class _Run:
         slow = max((seconds for stage, seconds in times.items() if stage != "test"), default=0) > SLOW
         if "fault" not in answer and slow and written.read_bytes().count(b"\n") <= 1000:
             answer |= {"fault": f"{times}", "kind": f"slow: {stage}"}
+        if "fault" not in answer and answer["more"] > LARGE and stage not in ("plan", "test"):
+            answer |= {"fault": f"{answer['more']} MB more, {times}", "kind": f"large: {stage}"}
         self.slowest = max(self.slowest, (round(seconds, 2), f"{name} {stage}"))
         self.largest = max(self.largest, (answer.get("megabytes", 0), name))
         self.seconds.update(times)

@@ -23,6 +23,7 @@ from golc.syntax.text import read_source
 
 FORMATS = ("text", "json", "sarif", "github")
 FORMATS_OF_PAGES = ("text", "latex")
+WAYS: tuple[list[str], ...] = ([], ["--no-proofs"], ["--reachable"], ["--strict", "--color", "always"])
 BUG = 70
 """How a command ends that failed in a way nobody thought of."""
 
@@ -59,17 +60,11 @@ def every_stage(path: Path, rng: random.Random, clock: Clock) -> Examined:
         _show(examined)
     with clock.stage("fmt"):
         _lay_out(path)
-    if rng.random() < 0.02:
+    with clock.stage("fix"):
+        _run(["check", "--diff", "--no-proofs", str(path)])
+    if rng.random() < 0.05:
         with clock.stage("check"):
-            _run(
-                [
-                    "check",
-                    "--format",
-                    rng.choice(FORMATS),
-                    *rng.choice(([], ["--no-proofs"], ["--reachable"])),
-                    str(path),
-                ]
-            )
+            _run(["check", "--format", rng.choice(FORMATS), *rng.choice(WAYS), str(path)])
     if examined.theory is not None:
         for command in _commands(path, examined, rng):
             with clock.stage(command[0]):
@@ -123,6 +118,7 @@ def _commands(path: Path, examined: Examined, rng: random.Random) -> Iterator[li
     for name in rng.sample([*theory.procedures], min(2, len(theory.procedures))):
         way = rng.choice((["--all", "5"], ["--first"], ["--shortest"], ["--cheapest"], ["--all", "5", "--conformant"]))
         yield ["plan", str(path), name, *way, *limits, "--format", rng.choice(("text", "json", "dot"))]
+    yield ["convert", str(path), "-"]
     yield ["test", str(path)]
     if theory.devices:
         yield ["gen-nqc", str(path), "-o", str(path.parent / "build"), "--target", rng.choice(("rcx", "rcx2"))]

@@ -41,6 +41,7 @@ def main() -> None:
 
 def _answer(inputs: Inputs, number: int, clock: Clock) -> dict[str, Any]:
     answer: dict[str, Any] = {"times": clock.times}
+    before = _megabytes()
     try:
         examined = every_stage(inputs.write(number, clock), random.Random(number), clock)
     except FaultError as error:
@@ -51,8 +52,12 @@ def _answer(inputs: Inputs, number: int, clock: Clock) -> dict[str, Any]:
     else:
         answer |= {"theory": examined.theory is not None, "codes": sorted({f.code.code for f in examined.findings})}
         answer |= {"asked": examined.asked, "undecided": examined.undecided}
-    answer["megabytes"] = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
-    return answer
+    return answer | {"megabytes": _megabytes(), "more": _megabytes() - before}
+
+
+def _megabytes() -> int:
+    """The most memory that this process has had so far."""
+    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss // 1024
 
 
 def _kind(lines: list[str]) -> str:

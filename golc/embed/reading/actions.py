@@ -21,7 +21,7 @@ IN_ACTIONS: Mapping[type[ast.stmt], str] = {
     ast.If: "write `causes(fluent, value, when=φ)`",
     ast.Assert: "write `poss(φ)`",
     ast.While: "write `for n in station:` with `causes(…)` in it",
-    ast.Return: "write `senses(…)` for what a device answers",
+    ast.Return: "write `poss(φ)` for what it needs, `senses(…)` for what a device answers",
 }
 """What was probably meant in the body of an action."""
 

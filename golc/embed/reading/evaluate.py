@@ -77,7 +77,8 @@ class Evaluator:
                 value = None if called is print else self._run(node)
                 if value is None and isinstance(called, BuiltinFunctionType):
                     message = f"`{called.__name__}` gives no value, and what it does is not a part of the theory"
-                    raise meaningless(message, self.function.place(node))
+                    help_ = 'a program writes `say(f"…")`' if called is print else None
+                    raise meaningless(message, self.function.place(node), help_)
                 return value
             case ast.Constant() | ast.Lambda():
                 return NOT_PYTHON

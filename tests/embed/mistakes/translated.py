@@ -204,7 +204,7 @@ def d24():
 def d25():
     return TABLE
 #! 12+5 GL144 a dictionary means nothing in a theory
-#! help: a table is the value of a static: `theory.static(…)`
+#! help: a table is the value of a static: `start = theory.static(…)`; a term can use it: `start(x)`
 
 
 @theory.define
@@ -249,6 +249,7 @@ def d31():
 def d32():
     return print(location)
 #! 12+15 GL143 `print` gives no value, and what it does is not a part of the theory
+#! help: a program writes `say(f"…")`
 
 
 @theory.define
@@ -417,14 +418,14 @@ def one():
 @theory.define
 def _hidden():
 #! 5+7 GL143 `_hidden` cannot be a name
-#! help: begin it with a letter and go on with letters, digits and `_`
+#! help: begin it with a letter and go on with letters (without accents), digits and `_`, as in `hidden`
     return True
 
 
 @theory.define
 def grün():
 #! 5+4 GL143 `grün` cannot be a name
-#! help: begin it with a letter and go on with letters, digits and `_`
+#! help: begin it with a letter and go on with letters (without accents), digits and `_`, as in `grun`
     return True
 
 
@@ -444,7 +445,7 @@ def head12(n: object):
 @theory.define
 def head13(_n: station):
 #! 12+2 GL143 `_n` cannot be a name
-#! help: begin it with a letter and go on with letters, digits and `_`
+#! help: begin it with a letter and go on with letters (without accents), digits and `_`, as in `n`
     return True
 
 
@@ -662,6 +663,7 @@ def control(n: station):
             go(n)
     print("x")
 #! 5+10 GL143 `print` gives no value, and what it does is not a part of the theory
+#! help: a program writes `say(f"…")`
     yield go(n)
 #! 5+11 GL143 this does nothing
 #! help: call an action or a procedure
