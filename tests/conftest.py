@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import signal
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
@@ -32,6 +33,9 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("golc")
+
+# A shell that starts the tests in the background has them ignore Ctrl-C, and with them every program that they interrupt.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 World: TypeAlias = tuple[Value, ...]
 Worlds: TypeAlias = frozenset[World]
