@@ -34,7 +34,7 @@ settings.register_profile(
 )
 settings.load_profile("golc")
 
-# A shell that starts the tests in the background has them ignore Ctrl-C, and with them the programs that they interrupt.
+# A shell that starts the tests in the background has them ignore Ctrl-C, and with them what they interrupt.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 World: TypeAlias = tuple[Value, ...]
