@@ -4,7 +4,7 @@ PYTHON ?= python3
 VENV ?= .venv
 BIN = $(VENV)/bin
 
-.PHONY: demo test thorough fuzz bench docs nqc clean
+.PHONY: demo test coverage thorough fuzz bench docs nqc clean
 
 demo: $(VENV)/ready nqc
 	$(BIN)/golc check examples/delivery/delivery.gl
@@ -19,6 +19,10 @@ test: $(VENV)/ready nqc
 	rm -rf build && $(BIN)/pip wheel --quiet --disable-pip-version-check --no-deps --wheel-dir build/wheel .
 	tests/packaging/try-wheel $(PYTHON) build/wheel/*.whl
 	$(MAKE) --no-print-directory docs
+	$(BIN)/pytest -n auto -q
+
+# Which lines and branches of golc the tests go through.
+coverage: $(VENV)/ready nqc
 	$(BIN)/pytest -n auto --cov --cov-report=term:skip-covered -q
 
 # Property tests on 5,000 new examples each.
