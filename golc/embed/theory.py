@@ -241,7 +241,7 @@ class Theory:
                 "initially",
             )
         span = caller()
-        node = tree.Initially(expr(condition, span), span=span)
+        node = tree.Initially(expr(condition, argument(span, 0, "condition")), span=span)
         self._parts.put(object(), lambda: node)
         return None
 
@@ -365,7 +365,7 @@ class Theory:
     def _formula(self, kind: Any, what: str, name: Any, condition: object) -> Any:
         if condition is not MISSING:
             ident, span = self._named(name)
-            return self._add(kind(ident, expr(condition, span), span=span), what)
+            return self._add(kind(ident, expr(condition, argument(span, 1, "condition")), span=span), what)
 
         def make(t: Translator, ident: tree.Ident) -> tree.Declaration:
             if kind is tree.Prune and t.is_prune_after():

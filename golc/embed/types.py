@@ -9,6 +9,7 @@ from types import UnionType
 from typing import Any
 
 from golc.diagnostics import Code, Span
+from golc.embed import asked
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
 from golc.embed.places import caller
@@ -40,8 +41,7 @@ class TypeForm:
         return joined((other, self), caller())
 
     def __contains__(self, item: object) -> bool:
-        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
-        raise meaningless("Python's `in` answers at once, before there is a situation", caller(), help_)
+        raise asked.membership(caller())
 
 
 class TypeHandle(TypeForm):

@@ -328,6 +328,25 @@ def test_the_values_of_a_type_can_be_kept_in_lists_and_counted(text_of: Text) ->
     )
 
 
+def test_python_may_compare_symbols(text_of: Text) -> None:
+    text = text_of(
+        """
+        from golc.embed import Theory, enum, symbols
+
+        theory = Theory("d")
+        colour = theory.type("colour", enum("red", "green", "blue"))
+        pairs = [f"{a}_{b}" for a in colour for b in colour if a != b]
+        left = [each for each in colour if each == colour.green or each in (colour.red,)]
+        where = list(colour).index(colour.blue)
+        by_name = {symbols("red"): 5}[colour.red]
+        theory.const("how_many", len(pairs) + len(left) * 10 + where * 100 + by_name * 1000)
+        theory.goal("g", colour.red == colour.red)
+        """
+    )
+
+    assert text == "domain d\n\ntype colour = {red, green, blue}\n\nconst how_many = 5226\n\ngoal g: red = red\n"
+
+
 TOWNS = """
 from golc.embed import Theory, causes, enum, poss
 

@@ -161,6 +161,7 @@ def test_what_python_raises_is_said_in_one_line(wrong_with: Wrong, code: str, pl
     ("code", "place", "message"),
     [
         ("N = 3\n" + _in_define("(yield N)"), "yield N", "`yield` has no meaning in a theory"),
+        ("ARGS = (hall,)\n" + _in_define("light(*ARGS)"), "*ARGS", "`*` spreads no terms"),
         ("N = 10**5000\n" + _in_define("power == N"), "N", "a number of so many digits is too long: the limit is 4000"),
         (
             _in_define("power == 1e9999999"),
@@ -302,6 +303,22 @@ def test_what_has_no_end_or_no_values_is_said_at_its_place(
     (found,) = wrong_with(THEORY + code)
 
     assert (found.span.text, found.message) == (place, message)
+
+
+def test_the_answer_of_python_to_a_question_about_its_objects_is_a_value(text_of: Text) -> None:
+    text = text_of(
+        THEORY
+        + """
+def lamp(name, start, switch=None):
+    theory.fluent(name, initial=start in ("on", "bright"))
+    theory.fluent(name + "_by_hand", initial=switch is None)
+
+lamp("lamp", "on", None)
+theory.fluent("named", initial=bool(at is not None))
+"""
+    )
+
+    assert text.endswith("fluent lamp = true\nfluent lamp_by_hand = true\nfluent named = true\n")
 
 
 def test_a_large_real_is_written_in_full(text_of: Text) -> None:

@@ -104,7 +104,7 @@ class Evaluator:
         match node:
             case ast.Constant():
                 return True
-            case ast.Await() | ast.Yield() | ast.YieldFrom() | ast.NamedExpr():
+            case ast.Await() | ast.Yield() | ast.YieldFrom() | ast.NamedExpr() | ast.Starred():
                 return False
             case ast.BinOp(left=left, right=right):
                 return self._plain(left) and self._plain(right)

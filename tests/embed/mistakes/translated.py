@@ -52,7 +52,7 @@ def d2():
 def d3():
     return location ** 2
 #! 12+13 GL143 `**` has no meaning on terms
-#! help: multiply, or compute it in Python outside the function
+#! help: multiply: `x * x`; what Python is to compute can be an extern
 
 
 @theory.define
@@ -101,7 +101,7 @@ def d9():
 def d10():
     return {1: location}
 #! 12+13 GL143 a dictionary has no meaning here
-#! help: a table is all that a static returns
+#! help: declare a static that returns it, and write `start(x)` here
 
 
 @theory.define
