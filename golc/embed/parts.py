@@ -29,8 +29,13 @@ class Written:
 
 @dataclass
 class Parts:
-    """What a theory is made of: declarations by their keys, and other theories."""
+    """What a theory is made of: declarations by their keys, and the parts of other theories.
 
+    ``domain`` is its name, ``place`` where it began.
+    """
+
+    domain: tree.Ident
+    place: Span
     entries: list[tuple[object, Making | Parts]] = field(default_factory=list)
 
     def put(self, key: object, making: Making) -> None:
@@ -60,8 +65,8 @@ class Parts:
         """Add the declarations of another theory, those still to come among them."""
         self.entries.append((None, other))
 
-    def written(self, domain: tree.Ident, place: Span) -> Written:
-        """The tree of all declarations."""
+    def written(self) -> Written:
+        """The tree of all declarations; what is wrong with one does not hide the others."""
         findings = Findings()
         made: list[tree.Declaration] = []
         with deep_recursion():
@@ -73,8 +78,8 @@ class Parts:
                     findings.diagnostics += error.diagnostics
                 else:
                     made.append(node)
-        sources = {id(each): each for each in (place.source, *(node.span.source for node in made))}
-        return Written(tree.File(domain, tuple(made), span=place), findings, tuple(sources.values()))
+        sources = {id(each): each for each in (self.place.source, *(node.span.source for node in made))}
+        return Written(tree.File(self.domain, tuple(made), span=self.place), findings, tuple(sources.values()))
 
     def _makings(self, seen: list[Parts]) -> Iterator[Making]:
         seen.append(self)
