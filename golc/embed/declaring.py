@@ -9,6 +9,7 @@ from typing import Any, TypeAlias
 from golc.embed.errors import Refused, meaningless
 from golc.embed.given import MISSING, named
 from golc.embed.names import golc_name, new_name
+from golc.embed.owners import Owned
 from golc.embed.parts import Making, Parts
 from golc.embed.places import caller
 from golc.embed.reading import declarations
@@ -106,7 +107,8 @@ class Declaring:
         self._parts.put((space or SPACES.get(kind, "term"), name), making)
 
     def _handle(self, name: str, kind: str, parameters: tuple[str, ...] = ()) -> Any:
+        owned = Owned(name, self._parts)
         if kind != "type":
-            return Named(name, kind, parameters)
-        handle = self._types[name] = elsewhere(tree.Ident(name))
+            return Named(owned, kind, parameters)
+        handle = self._types[name] = elsewhere(tree.Ident(owned))
         return handle

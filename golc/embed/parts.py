@@ -9,6 +9,7 @@ from typing import TypeAlias
 
 from golc.diagnostics import Findings, Source, Span
 from golc.embed.errors import Refused
+from golc.embed.owners import check_owners
 from golc.embed.places import calling_frame
 from golc.embed.reading.depth import check_depth
 from golc.syntax import tree
@@ -27,9 +28,9 @@ class Written:
     sources: tuple[Source, ...]
 
 
-@dataclass
+@dataclass(eq=False)
 class Parts:
-    """What a theory is made of: declarations by their keys, and the parts of other theories.
+    """What one theory is made of: declarations by their keys, and the parts of theories that are included.
 
     ``domain`` is its name, ``place`` where it began.
     """
@@ -70,10 +71,12 @@ class Parts:
         findings = Findings()
         made: list[tree.Declaration] = []
         with deep_recursion():
-            for making in self._makings([]):
+            owners = self._joined()
+            for making in self._makings(set()):
                 try:
                     node = making()
                     check_depth(node)
+                    check_owners(node, owners)
                 except Refused as error:
                     findings.diagnostics += error.diagnostics
                 else:
@@ -81,13 +84,22 @@ class Parts:
         sources = {id(each): each for each in (self.place.source, *(node.span.source for node in made))}
         return Written(tree.File(self.domain, tuple(made), span=self.place), findings, tuple(sources.values()))
 
-    def _makings(self, seen: list[Parts]) -> Iterator[Making]:
-        seen.append(self)
+    def _makings(self, seen: set[Parts]) -> Iterator[Making]:
+        seen.add(self)
         for _, entry in self.entries:
             if not isinstance(entry, Parts):
                 yield entry
-            elif not any(entry is each for each in seen):
+            elif entry not in seen:
                 yield from entry._makings(seen)
+
+    def _joined(self) -> set[Parts]:
+        """These parts with all that are included in them, or in one of those."""
+        found, waiting = {self}, [self]
+        while waiting:
+            new = {entry for _, entry in waiting.pop().entries if isinstance(entry, Parts)} - found
+            found |= new
+            waiting += new
+        return found
 
 
 def _is_interactive() -> bool:

@@ -11,6 +11,7 @@ from golc.embed.declaring import Declaring
 from golc.embed.errors import refused
 from golc.embed.given import MISSING, applied, named, needed, parameters_of, typed
 from golc.embed.names import new_name
+from golc.embed.owners import Owned
 from golc.embed.parts import Parts, Written
 from golc.embed.places import argument, caller
 from golc.embed.reading import declarations
@@ -76,7 +77,7 @@ class Theory(Declaring):
         needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, span), span=span)
         self._keep(ident.text, "type", lambda: node)
-        handle = self._types[ident.text] = TypeHandle(ident.text, node.type, self._types.get)
+        handle = self._types[ident.text] = TypeHandle(Owned(ident.text, self._parts), node.type, self._types.get)
         return handle
 
     def static(
