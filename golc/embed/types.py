@@ -12,6 +12,7 @@ from golc.diagnostics import Code, Span
 from golc.embed import asked
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
+from golc.embed.owners import Owned
 from golc.embed.places import caller
 from golc.embed.terms import Named, Term, described, expr
 from golc.syntax import tree
@@ -85,7 +86,7 @@ class TypeHandle(TypeForm):
     def _values(self, node: tree.Type) -> list[Sequence[Named | int]]:
         match node:
             case tree.EnumType(elements=elements):
-                return [[e.value if isinstance(e, tree.Number) else Named(e.text, "symbol") for e in elements]]
+                return [[e.value if isinstance(e, tree.Number) else self._symbol(e.text) for e in elements]]
             case tree.IntervalType(low=low, high=high):
                 return [range(self._bound(low), self._bound(high) + 1)]
             case tree.UnionType(pieces=pieces):
@@ -95,6 +96,9 @@ class TypeHandle(TypeForm):
                 if isinstance(other, TypeHandle):
                     return other._pieces()
         raise meaningless(f"the values of `{self.name}` cannot be listed here", caller())
+
+    def _symbol(self, name: str) -> Named:
+        return Named(Owned(name, self.name.owner) if isinstance(self.name, Owned) else name, "symbol")
 
     def _bound(self, node: tree.Expr) -> int:
         match node:
@@ -128,7 +132,8 @@ def element(value: object, span: Span) -> tree.Ident | tree.Number:
         case str():
             return new_name(value, span)
         case TypeHandle() | Named() if not (isinstance(value, Named) and value.kind == "variable"):
-            return tree.Ident(value.name, span=span)
+            # What an enumeration names is declared there, whoever else has it.
+            return tree.Ident(str(value.name), span=span)
         case int() if not isinstance(value, bool):
             return tree.Number(value, span=span)
     raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, "write a string")

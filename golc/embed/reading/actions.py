@@ -31,7 +31,7 @@ class Actions(Lines):
 
     def clauses(self) -> tuple[tree.Clause, ...]:
         """The lines of an action."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._clause)
+        return self.lines(self._clause)
 
     def _clause(self, node: ast.stmt) -> Iterator[tree.Clause]:
         if isinstance(node, ast.For):

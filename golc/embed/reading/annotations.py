@@ -119,6 +119,11 @@ class Annotations(ABC):
             found.append(tree.Parameter(name, self.annotation(arg.annotation), span=self.span(arg)))
         return tuple(found)
 
+    def result(self) -> tree.Type | None:
+        """The type of what the function returns, if it says that."""
+        returns = self.function.node.returns
+        return None if returns is None else self.annotation(returns)
+
     def annotation(self, node: ast.expr) -> tree.Type:
         """The type in an annotation, in which parameters are not known."""
         bound = set(self.bound)

@@ -28,7 +28,7 @@ class Axioms(Lines):
 
     def cases(self) -> tuple[tree.After, ...]:
         """The lines of an axiom."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._case)
+        return self.lines(self._case)
 
     def _case(self, node: ast.stmt) -> Iterator[tree.After]:
         call, _ = self.call(node, "after")

@@ -21,7 +21,7 @@ class Devices(Lines, Tables):
 
     def settings(self) -> tuple[tree.Binding | tree.Setting, ...]:
         """The lines of a device."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._setting)
+        return self.lines(self._setting)
 
     def _setting(self, node: ast.stmt) -> Iterator[tree.Binding | tree.Setting]:
         if isinstance(node, ast.For):

@@ -18,7 +18,7 @@ class Scenarios(Lines):
 
     def items(self) -> tuple[tree.ScenarioItem, ...]:
         """The lines of a scenario."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._item)
+        return self.lines(self._item)
 
     def _item(self, node: ast.stmt) -> Iterator[tree.ScenarioItem]:
         if isinstance(node, ast.For):
