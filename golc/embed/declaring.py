@@ -89,6 +89,8 @@ class Declaring:
                 help_ = "write `… for n in station` in it; with a default it is a constant of Python"
                 raise meaningless(f"`{arg.arg}` is a parameter, and no {kind} has any", meant.place(arg), help_)
         except Refused as error:
+            if isinstance(function, str):
+                raise
             return self._broken(error, function, kind, name, space)
         self._keep(text, kind, lambda: make(Translator(meant), ident), space)
         return self._handle(text, kind, tuple(golc_name(arg.arg) for arg in meant.parameters()))

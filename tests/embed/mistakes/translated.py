@@ -114,8 +114,15 @@ def d11():
 @theory.define
 def d12():
     return [*phase]
-#! 13+6 GL143 `*` spreads no terms
-#! help: write the arguments one by one
+#! 13+6 GL143 `*` spreads only lists of Python
+#! help: write the terms one by one
+
+
+@theory.define
+def max_():
+#! 5+4 GL006 `max` is a word of the language and cannot be a name
+#! help: choose another name, for example `the_max`
+    return True
 
 
 @theory.define
