@@ -68,7 +68,7 @@ def missing_head(failure: Failure) -> Diagnostic | None:
     word, header = failure.line[0], _HEADER.match(failure.rest) is not None
     if word == "until":
         missing = "`wait`"
-    elif failure.kind == "IN" and header or failure.kind == "COLON" and _HEADER.match(failure.rest[1:]):
+    elif (failure.kind == "IN" and header) or (failure.kind == "COLON" and _HEADER.match(failure.rest[1:])):
         missing = "`for` or `pick`"
     elif header and (failure.kind in ("CMP", "AND", "OR", "PLUS", "MINUS") or word == "not"):
         missing = "`if` or `while`"
