@@ -14,6 +14,8 @@ from decimal import Decimal
 from typing import Any, NoReturn, TypeVar
 
 from golc.diagnostics import NOWHERE, Code, Span
+from golc.embed import asked
+from golc.embed.asked import Unanswerable
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.places import caller, calling_frame, frame_span, node_at, span_of
 from golc.syntax import tree
@@ -24,7 +26,6 @@ from golc.theory.suggest import did_you_mean
 _LARGEST = 10**LONGEST_NUMBER
 T = TypeVar("T")
 MOST_ELEMENTS = 100_000
-SIGNS = "write `&`, `|` and `~` with each comparison in parentheses; or write it in a translated function"
 
 
 COMPARISONS: dict[type[ast.cmpop], str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
@@ -50,7 +51,7 @@ def translating() -> Iterator[None]:
         _translating.reset(token)
 
 
-class Term:
+class Term(Unanswerable):
     """A term or formula of the language, a ``Named`` or a ``Compound``; its ``node`` is the tree that was built."""
 
     __slots__ = ("node",)
@@ -67,6 +68,8 @@ class Term:
         if self._is_open() and _translating.get():
             help_ = "make a dictionary a static, whose value is this dictionary; write a set with `{…}` in the function"
             raise meaningless("Python looks a term up at once, before there is a situation", caller(), help_)
+        if self._is_open() and asked.is_membership(span := caller()):
+            raise asked.membership(span)
         return object.__hash__(self)
 
     def __str__(self) -> str:
@@ -156,28 +159,33 @@ class Term:
         raise AttributeError(f"a term has no attribute `{name}`", name=name, obj=self)
 
     def __bool__(self) -> bool:
-        _no_truth()
+        raise asked.truth()
 
     def __iter__(self) -> Iterator[Term]:
         raise meaningless("Python cannot go through a term, whose value depends on the situation", caller())
 
     def __contains__(self, item: object) -> bool:
-        span = caller()
-        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
-        raise meaningless("Python's `in` answers at once, before there is a situation", span, help_)
+        raise asked.membership(caller())
 
     def __len__(self) -> int:
-        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
-        raise meaningless("Python's `len` answers at once, before there is a situation", caller(), help_)
+        raise meaningless("Python's `len` answers at once, before there is a situation", caller(), asked.TRANSLATED)
 
 
 class Compound(Term):
     """What operators, functions and calls have built.
 
-    It is a class beside ``Named``, not above it: Python would ask the right side of a comparison first.
+    It is a class beside ``Named``, not above it: Python would ask the right side of a comparison first. ``truth`` says
+    whether a formula is true in every situation, where that is plain.
     """
 
-    __slots__ = ()
+    __slots__ = ("truth",)
+
+    def __init__(self, node: tree.Expr, truth: bool | None = None) -> None:
+        super().__init__(node)
+        self.truth = truth
+
+    def __bool__(self) -> bool:
+        return super().__bool__() if self.truth is None else self.truth
 
 
 class Named(Term):
@@ -193,6 +201,9 @@ class Named(Term):
         self.name = name
         self.kind = kind
         self.parameters = parameters
+
+    def __hash__(self) -> int:
+        return hash((Named, self.name)) if self.kind == "symbol" else super().__hash__()
 
     def _is_open(self) -> bool:
         return not self.parameters and self.kind in ("variable", "const", "static", "fluent", "definition")
@@ -249,7 +260,15 @@ def binary(sign: Any, left: object, right: object) -> Term:
     span, (first, second) = _place(2)
     if _turned(sign, node_at(span)):
         sign, left, right = TURNED[sign], right, left
-    return Compound(tree.Binary(sign, expr(left, first), expr(right, second), span=span))
+    truth = None
+    if (
+        sign in ("=", "!=")
+        and isinstance(left, Named)
+        and isinstance(right, Named)
+        and left.kind == right.kind == "symbol"
+    ):
+        truth = (left.name == right.name) == (sign == "=")
+    return Compound(tree.Binary(sign, expr(left, first), expr(right, second), span=span), truth)
 
 
 def _turned(sign: str, node: ast.AST | None) -> bool:
@@ -303,6 +322,8 @@ def expr(value: object, span: Span) -> tree.Expr:
         case Term():
             return value.node
         case bool():
+            if wrong := asked.answered(span, _is_unsettled):
+                raise wrong
             return tree.Truth(value, span=span)
         case int():
             if value.bit_length() > _LARGEST.bit_length():
@@ -324,6 +345,11 @@ def expr(value: object, span: Span) -> tree.Expr:
     if as_term is not None and isinstance(term := as_term(value), Term):
         return expr(term, span)
     raise refused(Code.PYTHON_VALUE, f"{described(value)} means nothing in a theory", span, _instead(value))
+
+
+def _is_unsettled(value: object) -> bool:
+    """Whether something stands for what has a value only in a situation."""
+    return isinstance(value, Named) and value.kind in ("variable", "const", "static", "fluent", "definition")
 
 
 def _real(value: float | Decimal, span: Span) -> tree.Expr:
@@ -375,22 +401,3 @@ def _instead(value: object) -> str:
     if callable(value):
         return "call it, or declare it with a decorator of the theory"
     return "numbers, strings, truth values, `None`, lists, sets and what the theory declares can stand here"
-
-
-def _no_truth() -> NoReturn:
-    """Python asks a term for its truth."""
-    span = caller()
-    node = node_at(span)
-    what = "`if`, `and`, `or`, `not` and a chain of comparisons ask a term for its truth"
-    help_ = SIGNS
-    match node:
-        case ast.Compare(ops=ops) if len(ops) > 1:
-            what = "a chain of comparisons asks a term for its truth"
-            help_ = "write two comparisons: `(a <= x) & (x <= b)`; or write it in a translated function"
-        case ast.BoolOp(op=op):
-            word, sign = ("and", "&") if isinstance(op, ast.And) else ("or", "|")
-            what = f"`{word}` asks a term for its truth"
-            help_ = f"write `(…) {sign} (…)`, or write it in a translated function"
-        case ast.UnaryOp(op=ast.Not()):
-            what, help_ = "`not` asks a term for its truth", "write `~(…)`, or write it in a translated function"
-    raise refused(Code.PYTHON_TRUTH, f"{what} now, before there is a situation", span, help_)

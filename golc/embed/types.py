@@ -9,8 +9,10 @@ from types import UnionType
 from typing import Any
 
 from golc.diagnostics import Code, Span
+from golc.embed import asked
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
+from golc.embed.owners import Owned
 from golc.embed.places import caller
 from golc.embed.terms import Named, Term, described, expr
 from golc.syntax import tree
@@ -40,8 +42,7 @@ class TypeForm:
         return joined((other, self), caller())
 
     def __contains__(self, item: object) -> bool:
-        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
-        raise meaningless("Python's `in` answers at once, before there is a situation", caller(), help_)
+        raise asked.membership(caller())
 
 
 class TypeHandle(TypeForm):
@@ -85,7 +86,7 @@ class TypeHandle(TypeForm):
     def _values(self, node: tree.Type) -> list[Sequence[Named | int]]:
         match node:
             case tree.EnumType(elements=elements):
-                return [[e.value if isinstance(e, tree.Number) else Named(e.text, "symbol") for e in elements]]
+                return [[e.value if isinstance(e, tree.Number) else self._symbol(e.text) for e in elements]]
             case tree.IntervalType(low=low, high=high):
                 return [range(self._bound(low), self._bound(high) + 1)]
             case tree.UnionType(pieces=pieces):
@@ -95,6 +96,9 @@ class TypeHandle(TypeForm):
                 if isinstance(other, TypeHandle):
                     return other._pieces()
         raise meaningless(f"the values of `{self.name}` cannot be listed here", caller())
+
+    def _symbol(self, name: str) -> Named:
+        return Named(Owned(name, self.name.owner) if isinstance(self.name, Owned) else name, "symbol")
 
     def _bound(self, node: tree.Expr) -> int:
         match node:
@@ -128,10 +132,13 @@ def element(value: object, span: Span) -> tree.Ident | tree.Number:
         case str():
             return new_name(value, span)
         case TypeHandle() | Named() if not (isinstance(value, Named) and value.kind == "variable"):
-            return tree.Ident(value.name, span=span)
+            # What an enumeration names is declared there, whoever else has it.
+            return tree.Ident(str(value.name), span=span)
         case int() if not isinstance(value, bool):
             return tree.Number(value, span=span)
-    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, "write a string")
+    several = isinstance(value, (list, tuple, set, frozenset))
+    help_ = "write `enum(*names)` for all that a list has" if several else "write a string"
+    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, help_)
 
 
 def union(*pieces: object) -> TypeForm:
@@ -213,6 +220,8 @@ def type_node(value: object, span: Span) -> tree.Type:
         case range(start=start, stop=stop, step=1):
             return tree.IntervalType(expr(start, span), expr(stop - 1, span), span=span)
     help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
+    if isinstance(value, (list, tuple, set, frozenset)):
+        help_ = "write `enum(…)` around its elements, `enum(*names)` for all that a list has"
     if isinstance(value, Term):
         raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
     if isinstance(value, type) and value in BUILT_IN:
