@@ -13,7 +13,7 @@ from golc.embed import asked
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
 from golc.embed.owners import Owned
-from golc.embed.places import caller
+from golc.embed.places import argument, caller, each_argument
 from golc.embed.terms import Named, Term, described, expr
 from golc.syntax import tree
 
@@ -117,13 +117,14 @@ class TypeHandle(TypeForm):
 def interval(low: object, high: object) -> TypeForm:
     """``low .. high``: the integers from one bound to the other, both included; bounds may be terms of constants."""
     span = caller()
-    return TypeForm(tree.IntervalType(expr(low, span), expr(high, span), span=span))
+    first, last = argument(span, 0, "low"), argument(span, 1, "high")
+    return TypeForm(tree.IntervalType(expr(low, first), expr(high, last), span=span))
 
 
 def enum(*elements: object) -> TypeForm:
     """``{a, b}``: symbols, named by strings, or integers, in their order."""
     span = caller()
-    return TypeForm(tree.EnumType(tuple(element(each, span) for each in elements), span=span))
+    return TypeForm(tree.EnumType(tuple(map(element, elements, each_argument(span, len(elements)))), span=span))
 
 
 def element(value: object, span: Span) -> tree.Ident | tree.Number:
@@ -153,20 +154,21 @@ def optional(base: object) -> TypeForm:
 
 def symbols(*names: str) -> Any:
     """The symbols of enumerations that have no name: ``red, green = symbols("red", "green")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span).text, "symbol") for name in names)
+    return _one_or_all(Named(new_name(name, span).text, "symbol") for name, span in _placed(names))
 
 
 def names(*names: str) -> Any:
     """What an imported file declares, types apart: ``bed, water = names("bed", "water")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name in names)
+    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name, span in _placed(names))
 
 
 def types(*names: str) -> Any:
     """The types that an imported file declares: ``row, soil = types("row", "soil")``; of one name itself."""
-    span = caller()
-    return _one_or_all(elsewhere(new_name(name, span, used=True)) for name in names)
+    return _one_or_all(elsewhere(new_name(name, span, used=True)) for name, span in _placed(names))
+
+
+def _placed(names: Sequence[str]) -> Iterator[tuple[str, Span]]:
+    return zip(names, each_argument(caller(), len(names)), strict=True)
 
 
 def elsewhere(name: tree.Ident) -> TypeHandle:
