@@ -11,14 +11,13 @@ from golc.embed.declaring import Declaring
 from golc.embed.errors import refused
 from golc.embed.given import MISSING, applied, named, needed, parameters_of, typed
 from golc.embed.names import new_name
-from golc.embed.owners import Owned
 from golc.embed.parts import Parts, Written
 from golc.embed.places import argument, caller
 from golc.embed.reading import declarations
-from golc.embed.reading.tables import table_of
-from golc.embed.symbols import no_strings
-from golc.embed.terms import Named, expr
-from golc.embed.types import TypeHandle, type_node
+from golc.embed.tables import no_strings, table_of
+from golc.embed.terms import Named
+from golc.embed.types import type_node
+from golc.embed.values import expr
 from golc.embed.words import value_expr
 from golc.syntax import tree
 
@@ -77,8 +76,7 @@ class Theory(Declaring):
         needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, span), span=span)
         self._keep(ident.text, "type", lambda: node)
-        handle = self._types[ident.text] = TypeHandle(Owned(ident.text, self._parts), node.type, self._types.get)
-        return handle
+        return self._type(ident.text, node.type)
 
     def static(
         self,
@@ -101,7 +99,7 @@ class Theory(Declaring):
         heads, place = parameters_of(parameters, span), argument(span, 2, "value")
         meant, returned = applied(needed(value, span), heads, span), typed(type, span)
         if isinstance(meant, dict):
-            no_strings(meant, heads, returned, self._types, place)
+            no_strings(meant, heads, returned, self._parts, place)
         node = table_of(meant, place) if isinstance(meant, dict) else expr(meant, place)
         return self._add(tree.Static(ident, heads, returned, node, span=span), "static", heads)
 

@@ -14,7 +14,7 @@ from golc.embed.names import golc_name, new_name
 from golc.embed.reading.evaluate import NOT_PYTHON, Evaluator
 from golc.embed.reading.functions import Function
 from golc.embed.types import (
-    TypeForm,
+    TypeObject,
     element,
     enum,
     interval,
@@ -62,7 +62,7 @@ class Annotations(ABC):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
             return self.is_type(node.left)
         value = self.python(node)
-        return isinstance(value, (TypeForm, range)) or any(value is kind for kind in (bool, int, str, float))
+        return isinstance(value, (TypeObject, range)) or any(value is kind for kind in (bool, int, str, float))
 
     def type(self, node: ast.expr) -> tree.Type:
         """The type that an annotation or an argument stands for. Raises ``Refused``."""
