@@ -37,6 +37,16 @@ class Theory(Declaring):
     def __repr__(self) -> str:
         return f"<golc theory {self.name}>"
 
+    def __str__(self) -> str:
+        from golc.api.unfinished import showing
+
+        return str(showing(self))
+
+    def _repr_html_(self) -> str:
+        from golc.api.unfinished import showing
+
+        return showing(self)._repr_html_()
+
     @property
     def name(self) -> str:
         """The name of the domain."""
