@@ -11,7 +11,7 @@ from golc.embed.given import MISSING, named
 from golc.embed.names import golc_name, new_name
 from golc.embed.owners import Owned
 from golc.embed.parts import Making, Parts
-from golc.embed.places import caller
+from golc.embed.places import argument, caller
 from golc.embed.reading import declarations
 from golc.embed.reading.declarations import Formula, Translator
 from golc.embed.reading.functions import translated
@@ -49,7 +49,7 @@ class Declaring:
         """A formula with a name, both given or both those of a function."""
         if condition is not MISSING:
             ident, span = named(name)
-            return self._add(kind(ident, expr(condition, span), span=span), what)
+            return self._add(kind(ident, expr(condition, argument(span, 1, "condition")), span=span), what)
         if isinstance(name, FunctionType):
             return self._translate(name, what, lambda t, ident: declarations.formula(t, ident, kind))
         if name is not None and not isinstance(name, str):
@@ -89,6 +89,8 @@ class Declaring:
                 help_ = "write `… for n in station` in it; with a default it is a constant of Python"
                 raise meaningless(f"`{arg.arg}` is a parameter, and no {kind} has any", meant.place(arg), help_)
         except Refused as error:
+            if isinstance(function, str):
+                raise
             return self._broken(error, function, kind, name, space)
         self._keep(text, kind, lambda: make(Translator(meant), ident), space)
         return self._handle(text, kind, tuple(golc_name(arg.arg) for arg in meant.parameters()))

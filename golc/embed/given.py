@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from os import PathLike, fspath
 from types import FunctionType
 from typing import Any
 
-from golc.diagnostics import Span
+from golc.diagnostics import Code, Span
 from golc.embed import words
-from golc.embed.errors import meaningless
+from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
 from golc.embed.places import caller
 from golc.embed.terms import Term
 from golc.embed.types import type_node
+from golc.embed.values import described
 from golc.syntax import tree
 
 MISSING: Any = object()
@@ -28,8 +30,15 @@ def named(name: object) -> tuple[tree.Ident, Span]:
 def needed(value: object, span: Span) -> object:
     """A value that cannot be left out. Raises ``Refused`` if it is."""
     if value is MISSING:
-        raise meaningless("a value is missing", span, "write it behind the type")
+        raise meaningless("a value is missing", span, "write it as the last argument")
     return value
+
+
+def path_of(value: object, span: Span) -> str:
+    """The path of a file that the theory names. Raises ``Refused`` for what is none."""
+    if isinstance(value, (str, PathLike)) and isinstance(path := fspath(value), str):
+        return path
+    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no path of a file", span, "write a string")
 
 
 def typed(type_: object, span: Span) -> tree.Type | None:

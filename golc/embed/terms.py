@@ -7,7 +7,8 @@ from collections.abc import Iterable, Iterator
 from typing import Any, NoReturn
 
 from golc.diagnostics import NOWHERE, Code, Span
-from golc.embed import early
+from golc.embed import asked
+from golc.embed.asked import Unanswerable
 from golc.embed.errors import Refused, refused
 from golc.embed.places import caller, calling_frame, frame_span, node_at, span_of
 from golc.embed.values import Meaningful, expr
@@ -26,7 +27,7 @@ class Variable(str):
     __slots__ = ()
 
 
-class Term(Meaningful):
+class Term(Unanswerable, Meaningful):
     """A term or formula of the language, a ``Named`` or a ``Compound``; its ``node`` is the tree that was built."""
 
     __slots__ = ("node",)
@@ -43,13 +44,15 @@ class Term(Meaningful):
         return unparse_expression(self.node)
 
     def __hash__(self) -> int:
-        if self._is_open() and early.is_translating():
-            raise early.place_in_a_table()
+        if self._is_open() and asked.is_translating():
+            raise asked.place_in_a_table()
+        if self._is_open() and asked.is_membership(span := caller()):
+            raise asked.membership(span)
         return object.__hash__(self)
 
     def __str__(self) -> str:
-        if self._is_open() and early.is_translating():
-            raise early.text()
+        if self._is_open() and asked.is_translating():
+            raise asked.text()
         return repr(self)
 
     def _is_open(self) -> bool:
@@ -133,25 +136,33 @@ class Term(Meaningful):
         raise AttributeError(f"a term has no attribute `{name}`", name=name, obj=self)
 
     def __bool__(self) -> bool:
-        raise early.truth()
+        raise asked.truth()
 
     def __iter__(self) -> Iterator[Term]:
-        raise early.elements()
+        raise asked.elements()
 
     def __contains__(self, item: object) -> bool:
-        raise early.membership()
+        raise asked.membership(caller())
 
     def __len__(self) -> int:
-        raise early.length()
+        raise asked.length()
 
 
 class Compound(Term):
     """What operators, functions and calls have built.
 
-    It is a class beside ``Named``, not above it: Python would ask the right side of a comparison first.
+    It is a class beside ``Named``, not above it: Python would ask the right side of a comparison first. ``truth`` says
+    whether a formula is true in every situation, where that is plain.
     """
 
-    __slots__ = ()
+    __slots__ = ("truth",)
+
+    def __init__(self, node: tree.Expr, truth: bool | None = None) -> None:
+        super().__init__(node)
+        self.truth = truth
+
+    def __bool__(self) -> bool:
+        return super().__bool__() if self.truth is None else self.truth
 
 
 class Named(Term):
@@ -171,8 +182,14 @@ class Named(Term):
     def _tree_at(self, span: Span) -> tree.Expr:
         return tree.Apply(tree.Ident(self.name, span=span), (), span=span)
 
+    def __hash__(self) -> int:
+        return hash((Named, self.name)) if self.kind == "symbol" else super().__hash__()
+
     def _is_open(self) -> bool:
-        return not self.parameters and self.kind in ("variable", "const", "static", "fluent", "definition")
+        return not self.parameters and self._is_unsettled()
+
+    def _is_unsettled(self) -> bool:
+        return self.kind in ("variable", "const", "static", "fluent", "definition")
 
     def __call__(self, *args: object, **named: object) -> Term:
         """The name applied to arguments, by place or by the names of the parameters."""
@@ -226,7 +243,16 @@ def binary(sign: Any, left: object, right: object) -> Term:
     span, (first, second) = _place(2)
     if _turned(sign, node_at(span)):
         sign, left, right = _TURNED[sign], right, left
-    return Compound(tree.Binary(sign, expr(left, first), expr(right, second), span=span))
+    node = tree.Binary(sign, expr(left, first), expr(right, second), span=span)
+    return Compound(node, _plain_truth(sign, left, right))
+
+
+def _plain_truth(sign: str, left: object, right: object) -> bool | None:
+    """Whether a comparison is true in every situation, as one of two symbols is or is not."""
+    match left, right:
+        case Named(kind="symbol", name=one), Named(kind="symbol", name=other) if sign in ("=", "!="):
+            return (one == other) == (sign == "=")
+    return None
 
 
 def _turned(sign: str, node: ast.AST | None) -> bool:

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
 from types import FunctionType
 from typing import Any
 
 from golc.diagnostics import Code
 from golc.embed.declaring import Declaring
-from golc.embed.errors import refused
-from golc.embed.given import MISSING, applied, named, needed, parameters_of, typed
+from golc.embed.errors import meaningless, refused
+from golc.embed.given import MISSING, applied, named, needed, parameters_of, path_of, typed
 from golc.embed.names import new_name
 from golc.embed.parts import Parts, Written
 from golc.embed.places import argument, caller
@@ -56,10 +57,11 @@ class Theory(Declaring):
         """The tree of all declarations, with what is wrong with their Python."""
         return self._parts.written()
 
-    def import_(self, path: str) -> None:
+    def import_(self, path: str | PathLike[str]) -> None:
         """``import "warehouse.gl"``: the declarations of a file, relative to this one, join the theory."""
-        node = tree.Import(path, span=caller())
-        self._parts.put(("import", path), lambda: node)
+        span = caller()
+        node = tree.Import(path_of(path, argument(span, 0, "path")), span=span)
+        self._parts.put(("import", node.path), lambda: node)
 
     def include(self, other: Theory) -> None:
         """The declarations of another theory join this one, those still to come among them."""
@@ -113,10 +115,11 @@ class Theory(Declaring):
         node = table_of(meant, place) if isinstance(meant, dict) else expr(meant, place)
         return self._add(tree.Static(ident, heads, returned, node, span=span), "static", heads)
 
-    def extern(self, *, file: str, name: str | None = None) -> Callable[[Callable[..., Any]], Any]:
+    def extern(self, *, file: str | PathLike[str], name: str | None = None) -> Callable[[Callable[..., Any]], Any]:
         """``extern f(a: t): u from "helpers.py"``: a function that Python computes; a decorator of a function without
         a body."""
-        return self._decorator("extern", lambda t, ident: declarations.extern(t, ident, file), name)
+        path = path_of(file, argument(caller(), 0, "file"))
+        return self._decorator("extern", lambda t, ident: declarations.extern(t, ident, path), name)
 
     def fluent(
         self,
@@ -168,6 +171,8 @@ class Theory(Declaring):
 
     def axiom(self, fluent: object) -> Callable[[Callable[..., Any]], Any]:
         """``axiom f(x): …``: the successor state axiom of a fluent, as a function of ``after``; a decorator."""
+        if isinstance(fluent, FunctionType):
+            raise meaningless("an axiom needs its fluent", caller(), "write `@theory.axiom(lit)`")
         head = new_name(fluent.name if isinstance(fluent, Named) else fluent, caller(), used=True)
         return self._decorator("fluent", lambda t, _: declarations.axiom(t, head), head.text, "axiom")
 
@@ -176,7 +181,7 @@ class Theory(Declaring):
         if isinstance(condition, FunctionType):
             return self._translate(condition, "constraint", declarations.initially, "initially")
         span = caller()
-        node = tree.Initially(expr(condition, span), span=span)
+        node = tree.Initially(expr(condition, argument(span, 0, "condition")), span=span)
         self._parts.put(object(), lambda: node)
         return None
 
@@ -202,13 +207,16 @@ class Theory(Declaring):
         return self._decorated(function, name, "scenario", declarations.scenario)
 
     def device(
-        self, kind: str, *, file: str | None = None, name: str | None = None
+        self, kind: str, *, file: str | PathLike[str] | None = None, name: str | None = None
     ) -> Callable[[Callable[..., Any]], Any]:
         """``device rcx left "left.nqc": …``: who carries the actions out; a decorator of a function of ``bind`` and
         ``setting``."""
         span = caller()
+        if isinstance(kind, FunctionType):
+            raise meaningless("a device needs its kind", span, 'write `@theory.device("operator")`')
         what = new_name(kind, span, used=True)
+        path = None if file is None else path_of(file, argument(span, 1, "file"))
         called = None if name is None else new_name(name, span, used=True)
         return self._decorator(
-            "device", lambda t, _: declarations.device(t, what, called, file), kind, ("device", name)
+            "device", lambda t, _: declarations.device(t, what, called, path), kind, ("device", name)
         )

@@ -9,7 +9,7 @@ from types import UnionType
 from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import Code, Span
-from golc.embed import early
+from golc.embed import asked
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
 from golc.embed.owners import owned
@@ -38,7 +38,7 @@ class TypeObject:
         return joined((other, self), caller())
 
     def __contains__(self, item: object) -> bool:
-        raise early.membership()
+        raise asked.membership(caller())
 
 
 class TypeForm(TypeObject):
@@ -157,7 +157,9 @@ def element(value: object, span: Span) -> tree.Ident | tree.Number:
             return tree.Ident(str(name), span=span)
         case int() if not isinstance(value, bool):
             return tree.Number(value, span=span)
-    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, "write a string")
+    several = isinstance(value, (list, tuple, set, frozenset))
+    help_ = "write `enum(*names)` for all that a list has" if several else "write a string"
+    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, help_)
 
 
 def union(*pieces: object) -> TypeForm:
@@ -234,6 +236,8 @@ def type_node(value: object, span: Span) -> tree.Type:
         case range(start=start, stop=stop, step=1):
             return tree.IntervalType(expr(start, span), expr(stop - 1, span), span=span)
     help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
+    if isinstance(value, (list, tuple, set, frozenset)):
+        help_ = "write `enum(…)` around its elements, `enum(*names)` for all that a list has"
     if isinstance(value, Term):
         raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
     if isinstance(value, type) and value in BUILT_IN:

@@ -7,6 +7,7 @@ from decimal import Decimal
 from typing import TypeVar
 
 from golc.diagnostics import Code, Span
+from golc.embed import asked
 from golc.embed.errors import Refused, refused
 from golc.syntax import tree
 from golc.syntax.layout import LONGEST_NUMBER
@@ -27,6 +28,10 @@ class Meaningful:
         """The term, for an object that is named at a place."""
         raise NotImplementedError
 
+    def _is_unsettled(self) -> bool:
+        """Whether it has a value only in a situation."""
+        return False
+
 
 def expr(value: object, span: Span) -> tree.Expr:
     """The tree of a Python value that means something in a theory; a name and a literal stand at ``span``.
@@ -37,6 +42,8 @@ def expr(value: object, span: Span) -> tree.Expr:
         case Meaningful():
             return value._tree_at(span)
         case bool():
+            if wrong := asked.answered(span, _is_unsettled):
+                raise wrong
             return tree.Truth(value, span=span)
         case int():
             if value.bit_length() > _LARGEST.bit_length():
@@ -54,6 +61,10 @@ def expr(value: object, span: Span) -> tree.Expr:
         case list() | tuple() | range():
             return tree.ListLiteral(tuple(expr(each, span) for each in elements(value, span)), span=span)
     raise refused(Code.PYTHON_VALUE, f"{described(value)} means nothing in a theory", span, _instead(value))
+
+
+def _is_unsettled(value: object) -> bool:
+    return isinstance(value, Meaningful) and value._is_unsettled()
 
 
 def _real(value: float | Decimal, span: Span) -> tree.Expr:

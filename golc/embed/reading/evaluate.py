@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator
 from types import BuiltinFunctionType
 
 from golc.diagnostics import Code, Label, UserError
-from golc.embed.early import translating
+from golc.embed.asked import translating
+from golc.embed.cures import cure
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
@@ -105,7 +106,7 @@ class Evaluator:
         match node:
             case ast.Constant():
                 return True
-            case ast.Await() | ast.Yield() | ast.YieldFrom() | ast.NamedExpr():
+            case ast.Await() | ast.Yield() | ast.YieldFrom() | ast.NamedExpr() | ast.Starred():
                 return False
             case ast.BinOp(left=left, right=right):
                 return self._plain(left) and self._plain(right)
@@ -131,7 +132,8 @@ class Evaluator:
             raise
         except BaseException as error:
             message = f"Python fails here with {failure(error)}"
-            raise refused(Code.PYTHON_RAISED, message, self.function.place(node), labels=_where(error)) from None
+            help_ = cure(error, self.function.source.name)
+            raise refused(Code.PYTHON_RAISED, message, self.function.place(node), help_, _where(error)) from None
 
 
 def _where(error: BaseException) -> tuple[Label, ...]:

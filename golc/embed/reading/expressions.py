@@ -97,9 +97,9 @@ class Expressions(Annotations):
             case ast.Subscript(value=base, slice=index) if not isinstance(index, ast.Slice):
                 return tree.Index(self.expr(base), self.expr(index), span=span)
             case ast.Set(elts=parts):
-                return tree.SetLiteral(tuple(self.expr(part) for part in parts), span=span)
+                return tree.SetLiteral(tuple(self.expr(part) for part in self.spread(parts)), span=span)
             case ast.List(elts=parts) | ast.Tuple(elts=parts):
-                return tree.ListLiteral(tuple(self.expr(part) for part in parts), span=span)
+                return tree.ListLiteral(tuple(self.expr(part) for part in self.spread(parts)), span=span)
             case ast.SetComp(elt=part, generators=generators) | ast.ListComp(elt=part, generators=generators):
                 kind: Any = "set" if isinstance(node, ast.SetComp) else "list"
                 with self.generators(generators) as (binders, where):
@@ -234,7 +234,7 @@ class Expressions(Annotations):
             with self.generators(generator.generators) as (binders, where):
                 return tree.Quantifier(kind, binders, where, self.expr(generator.elt), span=span)
         if kind in ("min", "max") and len(node.args) > 1:
-            args = tuple(self.expr(arg) for arg in self.arguments(node, len(node.args)))
+            args = tuple(self.expr(arg) for arg in self.every_argument(node))
             return tree.Extremum(kind, args, span=span)
         return self._word_call(node, called, span)
 
@@ -269,7 +269,7 @@ class Expressions(Annotations):
 
     def _apply(self, node: ast.Call, called: Named, span: Span) -> tree.Apply:
         named = tuple((golc_name(self._keyword(word)), word.value) for word in node.keywords)
-        args: Sequence[Any] = in_order(called, node.args, named, span)
+        args: Sequence[Any] = in_order(called, self.spread(node.args), named, span)
         head = tree.Ident(called.name, span=self.span(node.func))
         return tree.Apply(head, tuple(self.argument(arg) for arg in args), span=span)
 
