@@ -12,8 +12,9 @@ from golc.embed import words
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
 from golc.embed.places import argument, caller
-from golc.embed.terms import Term, described
+from golc.embed.terms import Term
 from golc.embed.types import type_node
+from golc.embed.values import described
 from golc.syntax import tree
 
 ONLY_BY_NAME = 9

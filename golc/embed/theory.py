@@ -12,14 +12,13 @@ from golc.embed.declaring import Declaring
 from golc.embed.errors import meaningless, refused
 from golc.embed.given import MISSING, ONLY_BY_NAME, applied, named, needed, parameters_of, path_of, typed
 from golc.embed.names import new_name
-from golc.embed.owners import Owned
 from golc.embed.parts import Parts, Written
 from golc.embed.places import argument, caller
 from golc.embed.reading import declarations
-from golc.embed.reading.tables import table_of
-from golc.embed.symbols import no_strings
-from golc.embed.terms import Named, expr
-from golc.embed.types import TypeHandle, type_node
+from golc.embed.tables import no_strings, table_of
+from golc.embed.terms import Named
+from golc.embed.types import type_node
+from golc.embed.values import expr
 from golc.embed.words import value_expr
 from golc.syntax import tree
 
@@ -38,6 +37,16 @@ class Theory(Declaring):
 
     def __repr__(self) -> str:
         return f"<golc theory {self.name}>"
+
+    def __str__(self) -> str:
+        from golc.api.unfinished import showing
+
+        return str(showing(self))
+
+    def _repr_html_(self) -> str:
+        from golc.api.unfinished import showing
+
+        return showing(self)._repr_html_()
 
     @property
     def name(self) -> str:
@@ -79,8 +88,7 @@ class Theory(Declaring):
         needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, argument(span, 1, "value")), span=span)
         self._keep(ident.text, "type", lambda: node)
-        handle = self._types[ident.text] = TypeHandle(Owned(ident.text, self._parts), node.type, self._types.get)
-        return handle
+        return self._type(ident.text, node.type)
 
     def static(
         self,
@@ -103,7 +111,7 @@ class Theory(Declaring):
         heads, place = parameters_of(parameters, span), argument(span, 2, "value")
         meant, returned = applied(needed(value, span), heads, span), typed(type, span)
         if isinstance(meant, dict):
-            no_strings(meant, heads, returned, self._types, place)
+            no_strings(meant, heads, returned, self._parts, place)
         node = table_of(meant, place) if isinstance(meant, dict) else expr(meant, place)
         return self._add(tree.Static(ident, heads, returned, node, span=span), "static", heads)
 

@@ -86,6 +86,17 @@ def test_types_are_objects(text_of: Callable[[str], str], python: str, text: str
     assert f"type t = {text}\n" in text_of(f'{HEAD}\ntheory.type("t", {python})\n')
 
 
+def test_a_symbol_may_have_any_name(text_of: Callable[[str], str]) -> None:
+    text = text_of(
+        f"{HEAD}\nkind = theory.type('kind', enum('name', 'value', 'node', 'symbols'))\n"
+        "for each in (kind.name, kind.value, kind.node, kind.symbols):\n    theory.initially(each == kind.node)\n"
+    )
+
+    assert text.endswith(
+        "initially name = node\ninitially value = node\ninitially node = node\ninitially symbols = node\n"
+    )
+
+
 @pytest.mark.parametrize(
     ("line", "place", "code", "message", "help_"),
     [
