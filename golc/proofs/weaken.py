@@ -6,13 +6,14 @@ fails. So if the weaker one has none, the whole one has none.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from golc.proofs.certain import NO_FACTS, Certainty, Facts
 from golc.proofs.domains import Some, domain
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, terms_of
+from golc.proofs.rigid import callers
 from golc.proofs.symbols import MOST_CONCRETE, Range
 from golc.theory.border import PythonFunction
 from golc.theory.reading import reached
@@ -93,19 +94,9 @@ class Weakening:
     @cached_property
     def _kept_back(self) -> frozenset[str]:
         """The statics that call, perhaps through others, Python code that is not executed."""
-        found: set[str] = set()
         bodies = {name: static.body for name, static in self.theory.statics.items()}
-        more = {name for name, body in bodies.items() if isinstance(body, PythonFunction) and not body.file.trusted}
-        while more:
-            found |= more
-            more = {
-                name
-                for name, body in bodies.items()
-                if name not in found and not isinstance(body, Mapping | PythonFunction)
-                for part in reached(self.theory, [body])
-                if isinstance(part, StaticTerm) and part.static in found
-            }
-        return frozenset(found)
+        own = {name for name, body in bodies.items() if isinstance(body, PythonFunction) and not body.file.trusted}
+        return callers(self.theory, own) | own
 
 
 def _single(steps: Iterable[Step]) -> Iterator[Step]:

@@ -111,7 +111,7 @@ def test_the_solver_has_a_table_of_the_function(examined: Check) -> None:
     assert examined(LARGE.format(more="when a * b != c + next(at)"), python, trust=True).findings == ()
     wrong = examined(LARGE.format(more="+ 1 when a * b != c + next(at)"), python, trust=True)
     assert [finding.code for finding in wrong.findings] == [Code.EFFECT_FAILS]
-    undecided = examined(LARGE.format(more="when a * b != c + next(at)"), python)
+    undecided = examined(LARGE.format(more="+ 1 when a * b != c + next(at)"), python)
     assert {finding.code for finding in undecided.findings} == {Code.NOT_DECIDED}
 
 
