@@ -54,7 +54,7 @@ class Prover:
         """
         question = self._weakening.in_order(self._rigid.question(question))
         answer = self._answer(question, small)
-        if answer is None or not self._rigid.names:
+        if answer is None or not self._rigid.functions:
             return answer
         return self._whatever_they_are(question, answer, small)
 
@@ -69,8 +69,12 @@ class Prover:
         found = self._uniform.witness(question, self._values(question, answer))
         if found is None:
             return Undecided(str(NeedsPythonError(functions[0])), function=functions[0])
+        domains = self.asking.domains_of(question)
         matter = reduced(self.asking, question, found.values, found.answer) if small else None
-        return self._fixed(question, self.asking.domains_of(question), found.values, matter)
+        try:
+            return self._fixed(question, domains, found.values, matter)
+        except NeedsPythonError:  # it is the solver that has shown it
+            return self.asking.witness(question, domains, found.values, None)
 
     def _values(self, question: Question, witness: Witness) -> dict[int, Value]:
         """The values of a witness by their slots."""
@@ -81,7 +85,7 @@ class Prover:
     @cached_property
     def _uniform(self) -> Uniform:
         names = self.asking.layout.ground_fluents
-        slots = [slot for slot, (name, _) in enumerate(names) if name in self._rigid.names]
+        slots = [slot for slot, (name, _) in enumerate(names) if name in self._rigid.fluents]
         return Uniform(self.asking, frozenset(slots), self._refuted)
 
     def _refuted(self, question: Question, values: Mapping[int, Value]) -> Mapping[int, Value] | None:
@@ -95,9 +99,11 @@ class Prover:
         fluents = {names[slot]: value for slot, value in values.items() if slot < first}
         variables = [values.get(slot, any_of(domains[slot])) for slot in range(first, len(domains))]
         found = refuted(self._rigid.theory, question, fluents, variables)
-        if found is None:
-            return None
-        return {self.asking.layout.places[name].slot(args): value for (name, args), value in found.items()}
+        return None if found is None else self._slots(found)
+
+    def _slots(self, fluents: Mapping[tuple[str, tuple[Value, ...]], Value]) -> dict[int, Value]:
+        """The values of ground fluents by their slots."""
+        return {self.asking.layout.places[name].slot(args): value for (name, args), value in fluents.items()}
 
     def _answer(self, question: Question, small: bool) -> Witness | Undecided | None:
         answer = self._explored(question, small)
@@ -169,14 +175,14 @@ class Prover:
             return replace(why, reason=f"{why.reason}; {error}")
         if found is None:
             return None
-        fixed = [*domains]
-        for (name, args), value in found[0].items():
-            fixed[self.asking.layout.places[name].slot(args)] = (value,)
-        fixed[self.asking.layout.size :] = [(value,) for value in found[1]]
+        values = self._slots(found[0]) | dict(enumerate(found[1], start=self.asking.layout.size))
+        fixed = [(values[slot],) if slot in values else of for slot, of in enumerate(domains)]
         try:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
                 if leaf.is_witness:
                     return self._witness(question, domains, [(case, leaf)], small)
+        except NeedsPythonError:
+            return self.asking.witness(question, domains, values, None)
         except NotDecidedError as error:
             return replace(why, reason=f"{why.reason}; {error}")
         return replace(why, reason=f"{why.reason}; what the solver says is not confirmed")

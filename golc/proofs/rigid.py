@@ -8,13 +8,13 @@ are, holds for the function of the file.
 from __future__ import annotations
 
 import math
-from collections.abc import Container, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 from golc.proofs.questions import Afterwards, Asked, Compared, Question, Step, terms_of
 from golc.theory.border import PythonFunction
 from golc.theory.fitting import size
-from golc.theory.reading import fluents_read, reached
+from golc.theory.reading import reached
 from golc.theory.rewriting import Rewriting
 from golc.theory.terms import FluentTerm, Literal, StaticTerm, Term
 from golc.theory.theory import BasicActionTheory, Fluent, Static
@@ -27,15 +27,17 @@ class Rigid:
     """A theory, and the same with fluents in place of functions that are not executed."""
 
     def __init__(self, theory: BasicActionTheory) -> None:
-        functions = {static.name: static for static in theory.statics.values() if _is_open(static)}
-        self.names = frozenset(functions)
-        """The functions that are fluents."""
+        functions = {name: static for name, static in theory.statics.items() if is_open(static)}
+        self.functions = frozenset(functions)
+        """All functions that are not executed."""
+        self.fluents = frozenset([name for name, static in functions.items() if _has_few_arguments(static)])
+        """Those that are fluents."""
         self._rewriting = Rewriting(self._changed)
-        self.theory = self._with_fluents(theory, functions) if functions else theory
+        self.theory = self._with_fluents(theory) if functions else theory
 
     def question(self, question: Question) -> Question:
         """A question about the theory as one about the theory with fluents."""
-        if not self.names:
+        if not self.functions:
             return question
         return replace(question, steps=tuple([self._step(step) for step in question.steps]))
 
@@ -48,16 +50,21 @@ class Rigid:
         return self._read_by([self.theory.definitions[name].body for name in self.theory.invariants])
 
     def _read_by(self, terms: Iterable[Term]) -> list[str]:
-        return sorted(self.names & fluents_read(self.theory, terms))
+        found = set()
+        for part in reached(self.theory, terms):
+            match part:
+                case FluentTerm(fluent=name) | StaticTerm(static=name):
+                    found.add(name)
+        return sorted(self.functions & found)
 
-    def _with_fluents(self, theory: BasicActionTheory, functions: Mapping[str, Static]) -> BasicActionTheory:
-        reading = callers(theory, functions)
+    def _with_fluents(self, theory: BasicActionTheory) -> BasicActionTheory:
+        reading = _callers(theory, self.functions)
         statics = {
             name: self._reading(static) if name in reading else static
             for name, static in theory.statics.items()
-            if name not in functions
+            if name not in self.fluents
         }
-        fluents = {name: _fluent(static) for name, static in functions.items()}
+        fluents = {name: _fluent(theory.statics[name]) for name in sorted(self.fluents)}
         return replace(self._rewriting.theory(theory), statics=statics, fluents={**theory.fluents, **fluents})
 
     def _reading(self, static: Static) -> Static:
@@ -65,7 +72,7 @@ class Rigid:
         return replace(static, body=self._rewriting.term(static.body), reads=True)
 
     def _changed(self, term: Term) -> Term:
-        if isinstance(term, StaticTerm) and term.static in self.names:
+        if isinstance(term, StaticTerm) and term.static in self.fluents:
             return FluentTerm(term.static, term.args, type=term.type, span=term.span)
         return term
 
@@ -80,10 +87,12 @@ class Rigid:
                 return step
 
 
-def _is_open(static: Static) -> bool:
-    """Whether a static is a function that is not executed, and has few enough arguments for a fluent."""
-    if not isinstance(static.body, PythonFunction) or static.body.file.trusted:
-        return False
+def is_open(static: Static) -> bool:
+    """Whether a static is a function that is not executed."""
+    return isinstance(static.body, PythonFunction) and not static.body.file.trusted
+
+
+def _has_few_arguments(static: Static) -> bool:
     types = [parameter.type for parameter in static.parameters]
     return all(type_.finite for type_ in types) and math.prod(map(size, types)) <= MOST_CALLS
 
@@ -93,7 +102,7 @@ def _fluent(static: Static) -> Fluent:
     return Fluent(static.name, static.parameters, static.type, Literal(None, type=static.type), span=static.span)
 
 
-def callers(theory: BasicActionTheory, functions: Container[str]) -> frozenset[str]:
+def _callers(theory: BasicActionTheory, functions: frozenset[str]) -> frozenset[str]:
     """The statics that call some functions, perhaps through others."""
     calls = {
         name: {part.static for part in reached(theory, [static.body]) if isinstance(part, StaticTerm)}
@@ -101,8 +110,6 @@ def callers(theory: BasicActionTheory, functions: Container[str]) -> frozenset[s
         if not isinstance(static.body, Mapping | PythonFunction)
     }
     found: set[str] = set()
-    while more := {
-        name for name in calls.keys() - found if any(each in functions or each in found for each in calls[name])
-    }:
+    while more := {name for name in calls.keys() - found if not calls[name].isdisjoint(functions | found)}:
         found |= more
     return frozenset(found)

@@ -122,15 +122,16 @@ class Uniform:
     def _whatever(self, question: Question, values: Values) -> Found | Function:
         """The situation, if what is asked is so there for all functions; otherwise one for which it is not so."""
         try:
-            answers = set()
+            answers, read = set(), dict(values)
             for number, (case, leaf) in enumerate(self._leaves(question, values)):
                 answers.add(leaf.answer)
+                read |= self._without_functions(case.values())
                 alike = leaf.is_witness and len(answers) == 1
                 if not alike and not case.open:
                     return Function({slot: value for slot, value in case.values().items() if slot in self.slots})
                 if not alike or not case.whole or number == MOST_CASES:
                     raise NotDecidedError("the functions cannot be gone through")
-            return Found(values, answers.pop())
+            return Found(read, answers.pop())
         except NotDecidedError:
             if question.fails:  # it might fail in several ways
                 raise

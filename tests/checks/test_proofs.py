@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from golc.diagnostics import Diagnostic, Severity
+from golc.diagnostics import Diagnostic
 from golc.loading import examine
 
 ROOT = Path(__file__).parents[2]
@@ -53,6 +53,11 @@ def test_nothing_is_wrong_with_the_examples(path: Path) -> None:
     assert examined.findings == ()
     assert examined.asked > 0
     assert examined.undecided == 0
+
+
+def test_nothing_is_wrong_with_the_museum_and_its_floor_plan() -> None:
+    examined = examine(ROOT / "examples/museum/museum.gl", proofs=True, trust=True)
+    assert (examined.findings, examined.undecided) == ((), 0)
 
 
 DOMAIN = """\

@@ -52,7 +52,7 @@ def test_what_depends_on_a_function_is_not_decided_without_trust(examined: Check
 
     (finding,) = found.findings
     assert (finding.code, finding.severity) == (Code.NOT_DECIDED, Severity.NOTE)
-    assert finding.message == "what depends on `near` is not decided: its file is not executed"
+    assert finding.message == "not all that depends on `near` is decided: its file is not executed"
     assert (finding.span.line, finding.span.text) == (7, "near")
     assert finding.help == "`--trust` would decide it: it executes the file"
     assert found.undecided > 1
