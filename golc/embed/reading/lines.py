@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 from golc.embed import words
 from golc.embed.errors import meaningless
-from golc.embed.reading.bodies import Bodies
+from golc.embed.reading.bodies import Bodies, T
 from golc.syntax import tree
 
 
 class Lines(Bodies):
     """Translates lines of a declaration's body."""
+
+    def lines(self, translate: Callable[[ast.stmt], Iterable[T]]) -> tuple[T, ...]:
+        """What the lines of the body become; ``pass`` is the body of one that has none."""
+        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], translate)
 
     def call(
         self, node: ast.stmt, allowed: str, meant: Mapping[type[ast.stmt], str] | None = None

@@ -151,7 +151,7 @@ class Programs(Bodies):
         assert isinstance(node.iter, ast.Call)
         if not node.iter.args:
             raise refused(Code.ARITY, f"`{word.name}` needs a type or a list to go through", self.span(node.iter))
-        ranges = self.arguments(node.iter, len(node.iter.args), ("where",))
+        ranges = self.every_argument(node.iter, ("where",))
         return self.binders(node.target, ranges), self.keyword(node.iter, "where")
 
     def _names(self, target: ast.expr) -> list[ast.Name]:

@@ -52,7 +52,7 @@ def d2():
 def d3():
     return location ** 2
 #! 12+13 GL143 `**` has no meaning on terms
-#! help: multiply, or compute it in Python outside the function
+#! help: multiply: `x * x`; what Python is to compute can be an extern
 
 
 @theory.define
@@ -101,7 +101,7 @@ def d9():
 def d10():
     return {1: location}
 #! 12+13 GL143 a dictionary has no meaning here
-#! help: a table is all that a static returns
+#! help: declare a static that returns it, and write `start(x)` here
 
 
 @theory.define
@@ -114,8 +114,15 @@ def d11():
 @theory.define
 def d12():
     return [*phase]
-#! 13+6 GL143 `*` spreads no terms
-#! help: write the arguments one by one
+#! 13+6 GL143 `*` spreads only lists of Python
+#! help: write the terms one by one
+
+
+@theory.define
+def max_():
+#! 5+4 GL006 `max` is a word of the language and cannot be a name
+#! help: choose another name, for example `the_max`
+    return True
 
 
 @theory.define
