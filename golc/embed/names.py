@@ -8,7 +8,7 @@ import unicodedata
 
 from golc.diagnostics import Code, Span
 from golc.embed.errors import refused
-from golc.embed.terms import described
+from golc.embed.values import described
 from golc.syntax import tree
 from golc.syntax.words import RESERVED
 

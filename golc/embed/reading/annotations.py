@@ -13,9 +13,8 @@ from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name, new_name
 from golc.embed.reading.evaluate import NOT_PYTHON, Evaluator
 from golc.embed.reading.functions import Function
-from golc.embed.terms import elements
 from golc.embed.types import (
-    TypeForm,
+    TypeObject,
     element,
     enum,
     interval,
@@ -24,6 +23,7 @@ from golc.embed.types import (
     type_node,
     union,
 )
+from golc.embed.values import elements
 from golc.syntax import tree
 
 
@@ -63,7 +63,7 @@ class Annotations(ABC):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
             return self.is_type(node.left)
         value = self.python(node)
-        return isinstance(value, (TypeForm, range)) or any(value is kind for kind in (bool, int, str, float))
+        return isinstance(value, (TypeObject, range)) or any(value is kind for kind in (bool, int, str, float))
 
     def type(self, node: ast.expr) -> tree.Type:
         """The type that an annotation or an argument stands for. Raises ``Refused``."""

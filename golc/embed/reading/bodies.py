@@ -13,7 +13,7 @@ from golc.embed.errors import Refused, meaningless
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.expressions import Expressions
 from golc.embed.reading.refusals import STATEMENTS
-from golc.embed.terms import elements
+from golc.embed.values import elements
 from golc.syntax import tree
 
 T = TypeVar("T")

@@ -7,13 +7,14 @@ from collections.abc import Callable, Iterator
 from types import BuiltinFunctionType
 
 from golc.diagnostics import Code, Label, UserError
+from golc.embed.asked import translating
 from golc.embed.cures import cure
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
 from golc.embed.reading.functions import Function
-from golc.embed.terms import Term, translating, variable
-from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, enum, interval, optional, symbols, union
+from golc.embed.terms import Term, variable
+from golc.embed.types import BUILT_IN, TypeHandle, TypeObject, enum, interval, optional, symbols, symbols_of, union
 from golc.embed.words import Value, Word
 from golc.theory.python_file import failure
 from golc.theory.suggest import did_you_mean
@@ -36,7 +37,7 @@ def _holds_terms(value: object) -> bool:
         return any(_holds_terms(each) for each in value)
     if isinstance(value, dict):
         return any(_holds_terms(each) for each in (*value.keys(), *value.values()))
-    return isinstance(value, (Term, Word, Value, TypeForm)) or _is_ours(value) or _is_type(value)
+    return isinstance(value, (Term, Word, Value, TypeObject)) or _is_ours(value) or _is_type(value)
 
 
 def _is_type(value: object) -> bool:
@@ -87,12 +88,12 @@ class Evaluator:
 
     def _symbol(self, base: TypeHandle, node: ast.Attribute) -> object:
         try:
-            names = base.symbols()
+            names = symbols_of(base)
         except UserError as error:
             (found,) = error.diagnostics
             raise refused(found.code, found.message, self.function.place(node), found.help) from None
         if node.attr not in names:
-            message = f"the type `{base.name}` has no symbol `{node.attr}`"
+            message = f"the type `{base}` has no symbol `{node.attr}`"
             raise refused(Code.UNKNOWN_NAME, message, self.function.place(node), did_you_mean(node.attr, names))
         return names[node.attr]
 

@@ -16,13 +16,14 @@ from golc.embed.names import golc_name, new_name
 from golc.embed.reading.annotations import Annotations
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.refusals import EXPRESSIONS, OPERATORS
-from golc.embed.terms import Named, Variable, expr, in_order, plain_names
+from golc.embed.terms import Named, Variable, in_order, plain_names
 from golc.embed.types import (
     BUILT_IN,
     TypeForm,
     TypeHandle,
     interval,
 )
+from golc.embed.values import expr
 from golc.embed.words import Value, Word
 from golc.syntax import tree
 
@@ -152,7 +153,7 @@ class Expressions(Annotations):
     def _of_value(self, node: ast.expr, value: object) -> tree.Expr:
         span = self.span(node)
         if isinstance(value, TypeHandle):
-            return tree.Apply(tree.Ident(value.name, span=span), (), span=span)
+            return expr(value, span)
         if isinstance(value, type) and value in BUILT_IN:
             return tree.Apply(tree.Ident(BUILT_IN[value], span=span), (), span=span)
         if isinstance(value, Value):
@@ -215,7 +216,7 @@ class Expressions(Annotations):
         if isinstance(node, ast.Call) and self.python(node.func) is interval:
             return self.type(node)
         value = self.python(node)
-        return value.node if isinstance(value, TypeForm) and not isinstance(value, TypeHandle) else self.expr(node)
+        return value.node if isinstance(value, TypeForm) else self.expr(node)
 
     # Calls
 
