@@ -193,8 +193,8 @@ CASES = {
         [],
     ),
     "a branch that nothing disturbs": (
-        "action inc:\n    poss x < 3\n    causes x := x + 1\naction b\nproc control:\n    together:\n        test x = 1\n"
-        "        if x = 1:\n            inc\n    and:\n        b\n",
+        "action inc:\n    poss x < 3\n    causes x := x + 1\naction b\nproc control:\n"
+        "    together:\n        test x = 1\n        if x = 1:\n            inc\n    and:\n        b\n",
         [("GL073", 15, "this condition is always true here")],
     ),
     "an action that an action before it makes possible": (

@@ -42,11 +42,8 @@ ERRORS = [
 
 
 def test_a_number_has_100_000_bits_at_most() -> None:
-    dynamics = Dynamics(
-        theory_of(
-            f"{DOMAIN}fluent two: int = 2\naction put(n: int):\n    causes x := n\naction twice:\n    causes x := x * two\n"
-        )
-    )
+    text = "fluent two: int = 2\naction put(n: int):\n    causes x := n\naction twice:\n    causes x := x * two\n"
+    dynamics = Dynamics(theory_of(DOMAIN + text))
     state = dynamics.progress(dynamics.initial(), "put", (2**99_998,))
     largest = dynamics.progress(state, "twice", ())
 
