@@ -5,8 +5,11 @@ Property tests try 200 examples, the same every time, or with ``GOLC_EXAMPLES=50
 
 from __future__ import annotations
 
+import ast
 import itertools
+import keyword
 import os
+import re
 import signal
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
@@ -36,6 +39,53 @@ settings.load_profile("golc")
 
 # A shell that starts the tests in the background has them ignore Ctrl-C, and with them what they interrupt.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+
+GOLC_NOTATION = re.compile(
+    r"""
+    .+:=
+    | (abort|action|after|axiom|by|causes|const|cost|define|device|domain|exog|expect|extern|fluent|from|given|goal
+      |guard|import|initially|invariant|let|on|one|pick|poss|proc|prune|run|say|scenario|search|senses|set|star|static
+      |test|type|until|wait|within)[ ]
+    | (true|false|none|skip|exists|forall|one[ ]of)$
+    | .*[\w\]}]\?$                   # t?
+    | .*\w\.\.[-\w]                  # 1..6
+    | \{[a-z]\w*(,[ ]\w+)*\}$        # {a, b} as a type
+    | .*[ ](=[ ]…|implies|iff)
+    | \w+(\(.*\))?:                  # the head of a block
+    """,
+    re.VERBOSE,
+)
+"""Code that only golc's own form of the language has."""
+
+SOURCE_LINE = re.compile(r"\s*\d+ \||\s*(-->|:::) ")
+
+
+@pytest.fixture(scope="session")
+def no_python() -> Callable[[str], list[str]]:
+    """What rendered findings about a theory in Python quote in another form: golc's notation, and code in a help that
+    Python cannot read. The lines of the theory that they show do not count."""
+
+    def found(rendered: str) -> list[str]:
+        lines = [line for line in rendered.splitlines() if not SOURCE_LINE.match(line)]
+        quoted = [(piece, "= help: " in line) for line in lines for piece in re.findall("`([^`]+)`", line)]
+        return [piece for piece, help in quoted if GOLC_NOTATION.match(piece) or (help and not _reads(piece))]
+
+    return found
+
+
+def _reads(piece: str) -> bool:
+    """Whether Python can read a piece of code with holes; options, signs and NQC it need not read."""
+    if piece.startswith(("--", "void ", "task ")) or keyword.iskeyword(piece) or re.fullmatch(r"\W+", piece):
+        return True
+    whole = piece + "\ndef f(): ..." * piece.startswith("@") + " ..." * piece.endswith(":")
+    for hole in ("...", "_", ""):
+        try:
+            ast.parse(whole.replace("…", hole))
+        except SyntaxError:
+            continue
+        return True
+    return False
+
 
 World: TypeAlias = tuple[Value, ...]
 Worlds: TypeAlias = frozenset[World]

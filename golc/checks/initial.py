@@ -9,7 +9,7 @@ from typing import cast
 from golc.diagnostics import Code, Findings
 from golc.theory.closed import Closed, NoValueError
 from golc.theory.evaluate import Env
-from golc.theory.fitting import describe
+from golc.theory.forms import describe
 from golc.theory.terms import Choice, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Fluent
 from golc.theory.types import Value, show, show_call
@@ -76,7 +76,7 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
         findings.error(Code.NO_CHOICE, message, fluent.initial.span, "at least one has to be possible")
     for value in values:
         if value not in fluent.type:
-            message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type)}"
+            message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type, fluent.span)}"
             findings.error(Code.INITIAL_VALUE, message, fluent.initial.span, f"is {show(value)}")
             return False
     return bool(values)

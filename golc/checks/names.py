@@ -108,6 +108,8 @@ def _loose_quantifiers(file: tree.File, findings: Findings) -> None:
         match node:
             case tree.Quantifier(kind="forall", body=tree.Binary(op="implies")):
                 pass  # a rule, whose conclusion need not speak of the variable
+            case tree.Quantifier() if node.span.source.python:
+                pass  # there its parentheses show what a quantifier takes in
             case tree.Quantifier(kind="exists" | "forall", body=tree.Binary(op="or" | "implies" | "iff") as body):
                 loose = body.right
                 bound = {binder.name.text for binder in node.binders}
