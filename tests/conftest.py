@@ -49,7 +49,7 @@ GOLC_NOTATION = re.compile(
     | (true|false|none|skip|exists|forall|one[ ]of)$
     | .*[\w\]}]\?$                   # t?
     | .*\w\.\.[-\w]                  # 1..6
-    | \{[a-z]\w*(,[ ]\w+)*\}$        # {a, b} as a type
+    | \{[a-z]\w*(,[ ]\w+)+\}$        # {a, b} as a type
     | .*[ ](=[ ]…|implies|iff)
     | \w+(\(.*\))?:                  # the head of a block
     """,
@@ -78,6 +78,8 @@ def _reads(piece: str) -> bool:
     if piece.startswith(("--", "void ", "task ")) or keyword.iskeyword(piece) or re.fullmatch(r"\W+", piece):
         return True
     whole = piece + "\ndef f(): ..." * piece.startswith("@") + " ..." * piece.endswith(":")
+    if piece.startswith("for ") and not piece.endswith(":"):
+        whole = f"[0 {piece}]"
     for hole in ("...", "_", ""):
         try:
             ast.parse(whole.replace("…", hole))

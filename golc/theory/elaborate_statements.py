@@ -168,7 +168,7 @@ def _call(context: Context, scope: Scope, node: tree.Apply) -> typed.Statement:
     if entry.kind is Kind.EXOGENOUS:
         labels = (Label(entry.span, "declared here"),)
         message = f"`{entry.name}` is an exogenous action: it happens, a program cannot do it"
-        waiting = node.span.either("wait until …", "wait(until=…)")
+        waiting = node.span.either("wait until", "wait(until=…)")
         help_ = f"wait for it, for example with `{waiting}`"
         context.error(Code.MISUSED_NAME, message, node.name.span, "not an action of the agent", help_, labels)
     args = arguments(context, scope, node, signature)

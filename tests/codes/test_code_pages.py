@@ -23,7 +23,6 @@ from golc.syntax.parse import parse_file
 
 GOLC_ONLY = {
     **dict.fromkeys([f"GL00{number}" for number in range(2, 10)], "it is about the text of a `.gl` file"),
-    "GL031": "in Python a quantifier has parentheses",
     "GL032": "comments are not converted",
     "GL110": "it is about an events file",
 }
