@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from golc.api.report import Report
     from golc.api.state import State
     from golc.api.theory import Theory
-    from golc.runtime.running import Run
+    from golc.runtime.record import Run
 
 MOST = 200
 """Rows of a table and steps of a plan that are shown."""
