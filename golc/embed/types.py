@@ -143,7 +143,14 @@ def interval(low: object, high: object) -> TypeForm:
 def enum(*elements: object) -> TypeForm:
     """``{a, b}``: symbols, named by strings, or integers, in their order."""
     span = caller()
-    return TypeForm(tree.EnumType(tuple(map(element, elements, each_argument(span, len(elements)))), span=span))
+    return TypeForm(enumeration(tuple(map(element, elements, each_argument(span, len(elements)))), span))
+
+
+def enumeration(elements: tuple[tree.Ident | tree.Number, ...], span: Span) -> tree.EnumType:
+    """The tree of an enumeration. Raises ``Refused`` for one of nothing."""
+    if not elements:
+        raise meaningless("an enumeration has at least one element", span, 'write `enum("red", "green")`')
+    return tree.EnumType(elements, span=span)
 
 
 def element(value: object, span: Span) -> tree.Ident | tree.Number:
@@ -253,4 +260,5 @@ def type_node(value: object, span: Span) -> tree.Type:
         return tree.CollectionType("set" if origin is set else "list", type_node(args[0], span), span=span)
     if value in (set, list):
         raise meaningless("a set or a list needs the type of its elements", span, "write `set[station]`")
-    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no type of the language", span, help_)
+    what = described(value) if origin is None else f"`{value}`"
+    raise refused(Code.PYTHON_VALUE, f"{what} is no type of the language", span, help_)

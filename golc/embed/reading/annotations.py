@@ -17,6 +17,7 @@ from golc.embed.types import (
     TypeObject,
     element,
     enum,
+    enumeration,
     interval,
     join_nodes,
     optional,
@@ -86,7 +87,7 @@ class Annotations(ABC):
                     return tree.IntervalType(self.expr(low), self.expr(high), span=span)
                 if called is enum:
                     args = self.every_argument(node)
-                    return tree.EnumType(tuple(self._element(arg) for arg in args), span=span)
+                    return enumeration(tuple(self._element(arg) for arg in args), span)
                 if called is union or called is optional:
                     pieces = [self.type(arg) for arg in self.every_argument(node)]
                     return join_nodes(pieces, called is optional, span)
