@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Mapping
+import contextlib
+import contextvars
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from types import FrameType, ModuleType
 from typing import NoReturn
@@ -24,6 +26,23 @@ _DECIDING: Mapping[type[ast.AST], str] = {
     ast.IfExp: "… if … else …",
     ast.Assert: "assert",
 }
+
+_translating: contextvars.ContextVar[bool] = contextvars.ContextVar("translating", default=False)
+
+
+@contextlib.contextmanager
+def translating() -> Iterator[None]:
+    """While this lasts Python runs for a translated function: terms stand for values that nobody knows yet."""
+    token = _translating.set(True)
+    try:
+        yield
+    finally:
+        _translating.reset(token)
+
+
+def is_translating() -> bool:
+    """Whether Python runs for a translated function, rather than from top to bottom through a module."""
+    return _translating.get()
 
 
 def truth() -> Refused:
@@ -125,6 +144,28 @@ def _speaks_of(node: ast.expr, frame: FrameType, is_open: Callable[[object], boo
         if is_open(value):
             return True
     return False
+
+
+def length() -> Refused:
+    """Python's ``len`` asks how long a term is."""
+    return meaningless("Python's `len` answers at once, before there is a situation", caller(), TRANSLATED)
+
+
+def elements() -> Refused:
+    """Python goes through a term."""
+    return meaningless("Python cannot go through a term, whose value depends on the situation", caller())
+
+
+def place_in_a_table() -> Refused:
+    """Python looks a term up in a dictionary or a set."""
+    help_ = "make a dictionary a static, whose value is this dictionary; write a set with `{…}` in the function"
+    return meaningless("Python looks a term up at once, before there is a situation", caller(), help_)
+
+
+def text() -> Refused:
+    """Python writes a term into a string."""
+    help_ = 'write the term into the message itself: `say(f"{e}")`'
+    return meaningless("Python writes a term at once, before there is a situation", caller(), help_)
 
 
 def _operator(kind: type[ast.operator]) -> Callable[[object, object], NoReturn]:

@@ -15,8 +15,9 @@ from golc.embed.places import argument, caller
 from golc.embed.reading import declarations
 from golc.embed.reading.declarations import Formula, Translator
 from golc.embed.reading.functions import translated
-from golc.embed.terms import Named, expr
-from golc.embed.types import TypeHandle, elsewhere
+from golc.embed.terms import Named
+from golc.embed.types import TypeHandle
+from golc.embed.values import expr
 from golc.syntax import tree
 
 Make: TypeAlias = Callable[[Translator, tree.Ident], tree.Declaration]
@@ -38,7 +39,6 @@ class Declaring:
 
     def __init__(self, parts: Parts) -> None:
         self._parts = parts
-        self._types: dict[str, TypeHandle] = {}
 
     def _add(self, node: Any, kind: str, parameters: tuple[tree.Parameter, ...] = ()) -> Any:
         """A declaration that is a tree already."""
@@ -89,6 +89,8 @@ class Declaring:
                 help_ = "write `… for n in station` in it; with a default it is a constant of Python"
                 raise meaningless(f"`{arg.arg}` is a parameter, and no {kind} has any", meant.place(arg), help_)
         except Refused as error:
+            if isinstance(function, str):
+                raise
             return self._broken(error, function, kind, name, space)
         self._keep(text, kind, lambda: make(Translator(meant), ident), space)
         return self._handle(text, kind, tuple(golc_name(arg.arg) for arg in meant.parameters()))
@@ -107,8 +109,8 @@ class Declaring:
         self._parts.put((space or SPACES.get(kind, "term"), name), making)
 
     def _handle(self, name: str, kind: str, parameters: tuple[str, ...] = ()) -> Any:
-        owned = Owned(name, self._parts)
-        if kind != "type":
-            return Named(owned, kind, parameters)
-        handle = self._types[name] = elsewhere(tree.Ident(owned))
+        return self._type(name) if kind == "type" else Named(Owned(name, self._parts), kind, parameters)
+
+    def _type(self, name: str, value: tree.Type | None = None) -> TypeHandle:
+        handle = self._parts.types[name] = TypeHandle(name, value, self._parts)
         return handle

@@ -27,6 +27,11 @@ class Owned(str):
         return self
 
 
+def owned(name: str, owner: Parts | None) -> str:
+    """A name with its owner, if it has one."""
+    return name if owner is None else Owned(name, owner)
+
+
 def check_owners(declaration: tree.Declaration, owners: Container[Parts]) -> None:
     """Raise ``Refused`` for every name in a declaration that a theory not among the ``owners`` has declared."""
     foreign = [

@@ -5,15 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from golc.diagnostics import Findings, Source, Span
 from golc.embed.errors import Refused
-from golc.embed.owners import check_owners
+from golc.embed.owners import Owned, check_owners
 from golc.embed.places import calling_frame
 from golc.embed.reading.depth import check_depth
 from golc.syntax import tree
 from golc.theory.recursion import deep_recursion
+
+if TYPE_CHECKING:
+    from golc.embed.types import TypeHandle
 
 Making: TypeAlias = Callable[[], tree.Declaration]
 """Makes a declaration; raises ``Refused``."""
@@ -32,11 +35,12 @@ class Written:
 class Parts:
     """What one theory is made of: declarations by their keys, and the parts of theories that are included.
 
-    ``domain`` is its name, ``place`` where it began.
+    ``domain`` is its name, ``place`` where it began; ``types`` are the handles of its types so far.
     """
 
     domain: tree.Ident
     place: Span
+    types: dict[str, TypeHandle] = field(default_factory=dict)
     entries: list[tuple[object, Making | Parts]] = field(default_factory=list)
 
     def put(self, key: object, making: Making) -> None:
@@ -65,6 +69,11 @@ class Parts:
     def include(self, other: Parts) -> None:
         """Add the declarations of another theory, those still to come among them."""
         self.entries.append((None, other))
+
+    def type_of(self, name: str) -> TypeHandle | None:
+        """The handle of a type that is named in this theory, if there is one so far."""
+        home = name.owner if isinstance(name, Owned) else self
+        return home.types.get(name)
 
     def written(self) -> Written:
         """The tree of all declarations; what is wrong with one does not hide the others."""

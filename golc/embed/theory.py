@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from os import PathLike
 from types import FunctionType
 from typing import Any
 
 from golc.diagnostics import Code
 from golc.embed.declaring import Declaring
-from golc.embed.errors import refused
-from golc.embed.given import MISSING, applied, named, needed, parameters_of, typed
+from golc.embed.errors import meaningless, refused
+from golc.embed.given import MISSING, ONLY_BY_NAME, applied, named, needed, parameters_of, path_of, typed
 from golc.embed.names import new_name
-from golc.embed.owners import Owned
 from golc.embed.parts import Parts, Written
 from golc.embed.places import argument, caller
 from golc.embed.reading import declarations
-from golc.embed.reading.tables import table_of
-from golc.embed.symbols import no_strings
-from golc.embed.terms import Named, expr
-from golc.embed.types import TypeHandle, type_node
+from golc.embed.tables import no_strings, table_of
+from golc.embed.terms import Named
+from golc.embed.types import type_node
+from golc.embed.values import expr
 from golc.embed.words import value_expr
 from golc.syntax import tree
 
@@ -33,10 +33,20 @@ class Theory(Declaring):
 
     def __init__(self, domain: str) -> None:
         place = caller()
-        super().__init__(Parts(new_name(domain, place), place))
+        super().__init__(Parts(new_name(domain, argument(place, 0, "domain")), place))
 
     def __repr__(self) -> str:
         return f"<golc theory {self.name}>"
+
+    def __str__(self) -> str:
+        from golc.api.unfinished import showing
+
+        return str(showing(self))
+
+    def _repr_html_(self) -> str:
+        from golc.api.unfinished import showing
+
+        return showing(self)._repr_html_()
 
     @property
     def name(self) -> str:
@@ -47,10 +57,11 @@ class Theory(Declaring):
         """The tree of all declarations, with what is wrong with their Python."""
         return self._parts.written()
 
-    def import_(self, path: str) -> None:
+    def import_(self, path: str | PathLike[str]) -> None:
         """``import "warehouse.gl"``: the declarations of a file, relative to this one, join the theory."""
-        node = tree.Import(path, span=caller())
-        self._parts.put(("import", path), lambda: node)
+        span = caller()
+        node = tree.Import(path_of(path, argument(span, 0, "path")), span=span)
+        self._parts.put(("import", node.path), lambda: node)
 
     def include(self, other: Theory) -> None:
         """The declarations of another theory join this one, those still to come among them."""
@@ -75,10 +86,9 @@ class Theory(Declaring):
             return self._decorated(what, name, "type", declarations.type_)
         ident, span = named(what)
         needed(value, span)
-        node = tree.TypeDecl(ident, type_node(value, span), span=span)
+        node = tree.TypeDecl(ident, type_node(value, argument(span, 1, "value")), span=span)
         self._keep(ident.text, "type", lambda: node)
-        handle = self._types[ident.text] = TypeHandle(Owned(ident.text, self._parts), node.type, self._types.get)
-        return handle
+        return self._type(ident.text, node.type)
 
     def static(
         self,
@@ -101,14 +111,15 @@ class Theory(Declaring):
         heads, place = parameters_of(parameters, span), argument(span, 2, "value")
         meant, returned = applied(needed(value, span), heads, span), typed(type, span)
         if isinstance(meant, dict):
-            no_strings(meant, heads, returned, self._types, place)
+            no_strings(meant, heads, returned, self._parts, place)
         node = table_of(meant, place) if isinstance(meant, dict) else expr(meant, place)
         return self._add(tree.Static(ident, heads, returned, node, span=span), "static", heads)
 
-    def extern(self, *, file: str, name: str | None = None) -> Callable[[Callable[..., Any]], Any]:
+    def extern(self, *, file: str | PathLike[str], name: str | None = None) -> Callable[[Callable[..., Any]], Any]:
         """``extern f(a: t): u from "helpers.py"``: a function that Python computes; a decorator of a function without
         a body."""
-        return self._decorator("extern", lambda t, ident: declarations.extern(t, ident, file), name)
+        path = path_of(file, argument(caller(), ONLY_BY_NAME, "file"))
+        return self._decorator("extern", lambda t, ident: declarations.extern(t, ident, path), name)
 
     def fluent(
         self,
@@ -151,7 +162,9 @@ class Theory(Declaring):
         """``exog e(x: t): …``, what happens by itself; ``expected``: look-ahead may count on it; ``sources``: who may
         report it. A decorator."""
         span = caller()
-        reporters = tuple(new_name(source, span, used=True) for source in sources)
+        reporters = tuple(
+            new_name(each, span, used=True) for each in ([sources] if isinstance(sources, str) else sources)
+        )
 
         def make(t: declarations.Translator, ident: tree.Ident) -> tree.Exog:
             return declarations.exog(t, ident, bool(expected), reporters)
@@ -160,6 +173,8 @@ class Theory(Declaring):
 
     def axiom(self, fluent: object) -> Callable[[Callable[..., Any]], Any]:
         """``axiom f(x): …``: the successor state axiom of a fluent, as a function of ``after``; a decorator."""
+        if isinstance(fluent, FunctionType):
+            raise meaningless("an axiom needs its fluent", caller(), "write `@theory.axiom(lit)`")
         head = new_name(fluent.name if isinstance(fluent, Named) else fluent, caller(), used=True)
         return self._decorator("fluent", lambda t, _: declarations.axiom(t, head), head.text, "axiom")
 
@@ -194,13 +209,16 @@ class Theory(Declaring):
         return self._decorated(function, name, "scenario", declarations.scenario)
 
     def device(
-        self, kind: str, *, file: str | None = None, name: str | None = None
+        self, kind: str, *, file: str | PathLike[str] | None = None, name: str | None = None
     ) -> Callable[[Callable[..., Any]], Any]:
         """``device rcx left "left.nqc": …``: who carries the actions out; a decorator of a function of ``bind`` and
         ``setting``."""
         span = caller()
+        if isinstance(kind, FunctionType):
+            raise meaningless("a device needs its kind", span, 'write `@theory.device("operator")`')
         what = new_name(kind, span, used=True)
+        path = None if file is None else path_of(file, argument(span, ONLY_BY_NAME, "file"))
         called = None if name is None else new_name(name, span, used=True)
         return self._decorator(
-            "device", lambda t, _: declarations.device(t, what, called, file), kind, ("device", name)
+            "device", lambda t, _: declarations.device(t, what, called, path), kind, ("device", name)
         )

@@ -46,7 +46,7 @@ def ride(n: floor):
     [
         ("theory.goal('g', height == 3)\n", "height", "at"),
         ("theory.goal('g', exists(step, lambda n: at == n))\n", "exists(step, lambda n: at == n)", "step"),
-        ("theory.fluent('f', step, 1)\n", "theory.fluent('f', step, 1)", "step"),
+        ("theory.fluent('f', step, 1)\n", "step", "step"),
         ("theory.fluent('f', place, hall)\n", "hall", "hall"),
         ("theory.fluent('f', place, room.hall)\n", "room.hall", "hall"),
         ("theory.static('s', int, {attic: 1}, parameters={'r': place})\n", "{attic: 1}", "attic"),
@@ -118,3 +118,17 @@ def test_names_that_no_theory_declares_belong_to_all(text_of: Text) -> None:
     )
 
     assert text == "domain b\n\nfluent f: {low, high} = low\nfluent g: row = bed\n"
+
+
+def test_the_values_of_a_type_of_a_joined_theory_can_be_listed(text_of: Text) -> None:
+    text = text_of(
+        "from golc.embed import Theory, enum\n"
+        "parts = Theory('parts')\nroom = parts.type('room', enum('hall', 'attic'))\n"
+        "theory = Theory('house')\ntheory.include(parts)\n"
+        "place = theory.type('place', room | enum('garden'))\n"
+        "for one in place:\n    theory.fluent(f'in_{one}', initial=one == place.garden)\n"
+    )
+
+    assert text.endswith(
+        "fluent in_hall = hall = garden\nfluent in_attic = attic = garden\nfluent in_garden = garden = garden\n"
+    )

@@ -60,7 +60,7 @@ class Actions(Lines):
             binders = self.binders(node.target, [node.iter])
         else:
             assert isinstance(node.iter, ast.Call)
-            binders = self.binders(node.target, self.arguments(node.iter, len(node.iter.args), ("where",)))
+            binders = self.binders(node.target, self.every_argument(node.iter, ("where",)))
             where = self.keyword(node.iter, "where")
         names = [each.id for each in ast.walk(node.target) if isinstance(each, ast.Name)]
         with self.scope(names):

@@ -61,7 +61,7 @@ class Axioms(Lines):
         if not isinstance(action, Named):
             raise meaningless("this is no action", self.span(node), "write an action: `after(move(x, y), …)`")
         new: list[str] = []
-        args = [self._pattern_arg(arg, new) for arg in (self.arguments(call, len(call.args)) if call else [])]
+        args = [self._pattern_arg(arg, new) for arg in (self.every_argument(call) if call else [])]
         ident = tree.Ident(action.name, span=self.span(named))
         return tree.Pattern(ident, tuple(args), span=self.span(node)), new
 

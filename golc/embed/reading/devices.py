@@ -53,7 +53,7 @@ class Devices(Lines, Tables):
         ident = tree.Ident(action.name, span=self.span(bound.func if isinstance(bound, ast.Call) else bound))
         args = None
         if isinstance(bound, ast.Call) and bound.args:
-            args = tuple(self._bound_arg(arg) for arg in self.arguments(bound, len(bound.args)))
+            args = tuple(self._bound_arg(arg) for arg in self.every_argument(bound))
         given = {word.arg: word.value for word in call.keywords}
         timeout = None if "timeout" not in given else self.expr(given["timeout"])
         table = None if "table" not in given else self.table(given["table"])

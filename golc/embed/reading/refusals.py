@@ -40,7 +40,7 @@ EXPRESSIONS: Mapping[type[ast.expr], tuple[str, str | None]] = {
     ast.Await: ("`await` has no meaning in a theory", "write `wait(until=φ)`"),
     ast.Yield: ("`yield` has no meaning in a theory", None),
     ast.YieldFrom: ("`yield` has no meaning in a theory", None),
-    ast.Starred: ("`*` spreads no terms", "write the arguments one by one"),
+    ast.Starred: ("`*` spreads only lists of Python", "write the terms one by one"),
     ast.Slice: ("a list has no slices", "write `first(x)`, `rest(x)` or `x[i]`"),
     ast.GeneratorExp: ("a generator has no meaning here", "write `any(…)`, `all(…)`, `sum(…)`, `count(…)` or `[…]`"),
 }
