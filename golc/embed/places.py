@@ -107,6 +107,15 @@ def argument(call: Span, index: int, keyword: str) -> Span:
     return span_of(call.source, found[0]) if found else call
 
 
+def each_argument(call: Span, count: int) -> list[Span]:
+    """Where the arguments of a call are written, one by one; the whole call for each where that cannot be told."""
+    node = node_at(call)
+    given = node.args if isinstance(node, ast.Call) else []
+    if len(given) != count or any(isinstance(each, ast.Starred) for each in given):
+        return [call] * count
+    return [span_of(call.source, each) for each in given]
+
+
 def caller() -> Span:
     """What the innermost code outside this package is just computing."""
     return frame_span(calling_frame())

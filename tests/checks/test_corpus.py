@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Callable, Iterator, Set
+from collections.abc import Iterator, Set
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -20,6 +20,7 @@ from golc.embed.printing import python_text
 from golc.loading import examine
 from golc.rendering import render
 from golc.syntax.parse import parse_file
+from tests.notation import no_python
 
 CORPUS = Path(__file__).with_name("corpus")
 DOMAIN = (CORPUS / "depot.gl").read_text(encoding="utf-8").splitlines()
@@ -117,9 +118,7 @@ def in_other_words() -> list[Mistake]:
     return [*sentences.values()]
 
 
-def test_a_mistake_in_python_is_told_in_python(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, no_python: Callable[[str], list[str]]
-) -> None:
+def test_a_mistake_in_python_is_told_in_python(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(folder)
     told: dict[str, list[str]] = {}
     codes: set[str] = set()

@@ -20,6 +20,7 @@ from golc.diagnostics import Code, Findings, Source
 from golc.embed.printing import python_text
 from golc.syntax.format import formatted
 from golc.syntax.parse import parse_file
+from tests.notation import no_python
 
 GOLC_ONLY = {
     **dict.fromkeys([f"GL00{number}" for number in range(2, 10)], "it is about the text of a `.gl` file"),
@@ -75,9 +76,7 @@ def test_the_examples_are_what_they_are_for(code: Code, tmp_path: Path, said: Sa
 
 
 @pytest.mark.parametrize("code", [code for code in Code if code.code not in GOLC_ONLY], ids=lambda code: code.code)
-def test_a_finding_about_python_is_told_in_python(
-    code: Code, tmp_path: Path, said: Said, no_python: Callable[[str], list[str]]
-) -> None:
+def test_a_finding_about_python_is_told_in_python(code: Code, tmp_path: Path, said: Said) -> None:
     wrong = page(code).wrong
     if shutil.which("nqc") is None and needs_nqc(wrong):
         pytest.skip("nqc is missing")

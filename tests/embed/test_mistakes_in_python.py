@@ -6,19 +6,19 @@ Below a line stand its findings, ``#! column+width code message`` and ``#! help:
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from golc.embed.modules import read_theory
 from golc.rendering import render
+from tests.notation import no_python
 
 FILES = sorted(Path(__file__).with_name("mistakes").glob("*.py"))
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
-def test_each_mistake_is_one_finding_and_hides_none(path: Path, no_python: Callable[[str], list[str]]) -> None:
+def test_each_mistake_is_one_finding_and_hides_none(path: Path) -> None:
     said = []
     for diagnostic in read_theory(path).findings.diagnostics:
         assert no_python(render(diagnostic)) == []

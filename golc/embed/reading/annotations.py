@@ -14,15 +14,17 @@ from golc.embed.names import golc_name, new_name
 from golc.embed.reading.evaluate import NOT_PYTHON, Evaluator
 from golc.embed.reading.functions import Function
 from golc.embed.types import (
-    TypeForm,
+    TypeObject,
     element,
     enum,
+    enumeration,
     interval,
     join_nodes,
     optional,
     type_node,
     union,
 )
+from golc.embed.values import elements
 from golc.syntax import tree
 
 
@@ -62,7 +64,7 @@ class Annotations(ABC):
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
             return self.is_type(node.left)
         value = self.python(node)
-        return isinstance(value, (TypeForm, range)) or any(value is kind for kind in (bool, int, str, float))
+        return isinstance(value, (TypeObject, range)) or any(value is kind for kind in (bool, int, str, float))
 
     def type(self, node: ast.expr) -> tree.Type:
         """The type that an annotation or an argument stands for. Raises ``Refused``."""
@@ -84,10 +86,10 @@ class Annotations(ABC):
                     low, high = self.arguments(node, 2)
                     return tree.IntervalType(self.expr(low), self.expr(high), span=span)
                 if called is enum:
-                    args = self.arguments(node, len(node.args))
-                    return tree.EnumType(tuple(self._element(arg) for arg in args), span=span)
+                    args = self.every_argument(node)
+                    return enumeration(tuple(self._element(arg) for arg in args), span)
                 if called is union or called is optional:
-                    pieces = [self.type(arg) for arg in self.arguments(node, len(node.args))]
+                    pieces = [self.type(arg) for arg in self.every_argument(node)]
                     return join_nodes(pieces, called is optional, span)
             case ast.Constant(value=str() as text):
                 return type_node(text, span)
@@ -119,6 +121,11 @@ class Annotations(ABC):
             found.append(tree.Parameter(name, self.annotation(arg.annotation), span=self.span(arg)))
         return tuple(found)
 
+    def result(self) -> tree.Type | None:
+        """The type of what the function returns, if it says that."""
+        returns = self.function.node.returns
+        return None if returns is None else self.annotation(returns)
+
     def annotation(self, node: ast.expr) -> tree.Type:
         """The type in an annotation, in which parameters are not known."""
         bound = set(self.bound)
@@ -135,11 +142,29 @@ class Annotations(ABC):
                 known = ", ".join(f"`{each}=`" for each in named)
                 help_ = f"it takes {known}" if known else "it takes arguments by place only"
                 raise refused(Code.ARITY, f"`{ast.unparse(node.func)}` takes no `{word.arg}=`", self.span(word), help_)
-        if len(node.args) != count:
+        given = self.spread(node.args)
+        if len(given) != count:
             takes = f"{count} argument{'s' * (count != 1)}" if count else "no arguments"
-            message = f"`{ast.unparse(node.func)}` takes {takes} by place, not {len(node.args)}"
+            message = f"`{ast.unparse(node.func)}` takes {takes} by place, not {len(given)}"
             raise refused(Code.ARITY, message, self.span(node))
-        return node.args
+        return given
+
+    def every_argument(self, node: ast.Call, named: Sequence[str] = ()) -> list[ast.expr]:
+        """The arguments by place of a call of a word that takes any number of them."""
+        return self.arguments(node, len(self.spread(node.args)), named)
+
+    def spread(self, nodes: Sequence[ast.expr]) -> list[ast.expr]:
+        """Expressions in a row; ``*values`` of a list of Python are its elements."""
+        found: list[ast.expr] = []
+        for node in nodes:
+            values = self.python(node.value) if isinstance(node, ast.Starred) else None
+            if isinstance(node, ast.Starred) and isinstance(values, (list, tuple, range)):
+                numbers = (ast.Constant(k) for k, _ in enumerate(elements(values, self.span(node))))
+                parts = [ast.Subscript(node.value, number, ast.Load()) for number in numbers]
+                found += [ast.fix_missing_locations(ast.copy_location(part, node)) for part in parts]
+            else:
+                found.append(node)
+        return found
 
     def keyword(self, node: ast.Call, name: str) -> ast.expr | None:
         """The argument of a call by name, if it is given."""

@@ -13,7 +13,7 @@ from golc.embed.errors import Refused, meaningless
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.expressions import Expressions
 from golc.embed.reading.refusals import STATEMENTS
-from golc.embed.terms import elements
+from golc.embed.values import elements
 from golc.syntax import tree
 
 T = TypeVar("T")
@@ -78,7 +78,9 @@ class Bodies(Expressions):
     def listed(self, node: ast.expr) -> object:
         """What a loop of Python goes through: a value of Python, or a list that is written out."""
         if isinstance(node, (ast.Tuple, ast.List)):
-            return [part.value if isinstance(part, ast.Constant) else self.python(part) for part in node.elts]
+            return [
+                part.value if isinstance(part, ast.Constant) else self.python(part) for part in self.spread(node.elts)
+            ]
         return self.python(node)
 
     def _assign(self, target: ast.expr, value: object) -> None:

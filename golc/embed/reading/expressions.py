@@ -16,13 +16,14 @@ from golc.embed.names import golc_name, new_name
 from golc.embed.reading.annotations import Annotations
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.refusals import EXPRESSIONS, OPERATORS
-from golc.embed.terms import Named, Variable, expr, in_order, plain_names
+from golc.embed.terms import Named, Variable, in_order, plain_names
 from golc.embed.types import (
     BUILT_IN,
     TypeForm,
     TypeHandle,
     interval,
 )
+from golc.embed.values import expr
 from golc.embed.words import Value, Word
 from golc.syntax import tree
 
@@ -96,9 +97,9 @@ class Expressions(Annotations):
             case ast.Subscript(value=base, slice=index) if not isinstance(index, ast.Slice):
                 return tree.Index(self.expr(base), self.expr(index), span=span)
             case ast.Set(elts=parts):
-                return tree.SetLiteral(tuple(self.expr(part) for part in parts), span=span)
+                return tree.SetLiteral(tuple(self.expr(part) for part in self.spread(parts)), span=span)
             case ast.List(elts=parts) | ast.Tuple(elts=parts):
-                return tree.ListLiteral(tuple(self.expr(part) for part in parts), span=span)
+                return tree.ListLiteral(tuple(self.expr(part) for part in self.spread(parts)), span=span)
             case ast.SetComp(elt=part, generators=generators) | ast.ListComp(elt=part, generators=generators):
                 kind: Any = "set" if isinstance(node, ast.SetComp) else "list"
                 with self.generators(generators) as (binders, where):
@@ -152,7 +153,7 @@ class Expressions(Annotations):
     def _of_value(self, node: ast.expr, value: object) -> tree.Expr:
         span = self.span(node)
         if isinstance(value, TypeHandle):
-            return tree.Apply(tree.Ident(value.name, span=span), (), span=span)
+            return expr(value, span)
         if isinstance(value, type) and value in BUILT_IN:
             return tree.Apply(tree.Ident(BUILT_IN[value], span=span), (), span=span)
         if isinstance(value, Value):
@@ -215,7 +216,7 @@ class Expressions(Annotations):
         if isinstance(node, ast.Call) and self.python(node.func) is interval:
             return self.type(node)
         value = self.python(node)
-        return value.node if isinstance(value, TypeForm) and not isinstance(value, TypeHandle) else self.expr(node)
+        return value.node if isinstance(value, TypeForm) else self.expr(node)
 
     # Calls
 
@@ -233,7 +234,7 @@ class Expressions(Annotations):
             with self.generators(generator.generators) as (binders, where):
                 return tree.Quantifier(kind, binders, where, self.expr(generator.elt), span=span)
         if kind in ("min", "max") and len(node.args) > 1:
-            args = tuple(self.expr(arg) for arg in self.arguments(node, len(node.args)))
+            args = tuple(self.expr(arg) for arg in self.every_argument(node))
             return tree.Extremum(kind, args, span=span)
         return self._word_call(node, called, span)
 
@@ -268,7 +269,7 @@ class Expressions(Annotations):
 
     def _apply(self, node: ast.Call, called: Named, span: Span) -> tree.Apply:
         named = tuple((golc_name(self._keyword(word)), word.value) for word in node.keywords)
-        args: Sequence[Any] = in_order(called, node.args, named, span)
+        args: Sequence[Any] = in_order(called, self.spread(node.args), named, span)
         head = tree.Ident(called.name, span=self.span(node.func))
         return tree.Apply(head, tuple(self.argument(arg) for arg in args), span=span)
 
