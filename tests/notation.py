@@ -17,7 +17,7 @@ GOLC = re.compile(
     | .*\w\.\.[-\w]                  # 1..6
     | \{[a-z]\w*(,[ ]\w+)+\}$        # {a, b} as a type
     | .*[ ](=[ ]…|implies|iff)
-    | \w+(\(.*\))?:                  # the head of a block
+    | \w+(\(.*\))?:$                 # the head of a block
     """,
     re.VERBOSE,
 )
@@ -38,13 +38,25 @@ def _reads(piece: str) -> bool:
     """Whether Python can read a piece of code with holes; options, signs and NQC it need not read."""
     if piece.startswith(("--", "void ", "task ")) or keyword.iskeyword(piece) or re.fullmatch(r"\W+", piece):
         return True
-    whole = piece + "\ndef f(): ..." * piece.startswith("@") + " ..." * piece.endswith(":")
-    if piece.startswith("for ") and not piece.endswith(":"):
-        whole = f"[0 {piece}]"
     for hole in ("...", "_", ""):
         try:
-            ast.parse(whole.replace("…", hole))
+            ast.parse(_whole(piece).replace("…", hole))
         except SyntaxError:
             continue
         return True
     return False
+
+
+def _whole(piece: str) -> str:
+    """A piece of code with what makes it whole: a decorator needs a function, a head its block, a generator brackets."""
+    match piece.split()[0], piece[-1]:
+        case _, ":" | "=":
+            return piece + " ..."
+        case "def", _ if "(" not in piece:
+            return piece + "(): ..."
+        case "for", _:
+            return f"[0 {piece}]"
+        case "…", _ if " for " in piece:
+            return f"[{piece}]"
+        case _:
+            return piece + "\ndef f(): ..." * piece.startswith("@")
