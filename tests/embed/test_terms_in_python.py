@@ -86,6 +86,15 @@ def test_types_are_objects(text_of: Callable[[str], str], python: str, text: str
     assert f"type t = {text}\n" in text_of(f'{HEAD}\ntheory.type("t", {python})\n')
 
 
+def test_unions_of_unions_are_one_in_annotations(text_of: Callable[[str], str]) -> None:
+    text = text_of(
+        f"from __future__ import annotations\n{HEAD}\n@theory.fluent\n"
+        "def f(a: union(phase | enum('idle'), floor), b: optional(union('phase', floor)), c: union(phase, None)): ...\n"
+    )
+
+    assert text.endswith("fluent f(a: phase + {idle} + floor, b: phase + floor?, c: phase?)\n")
+
+
 def test_a_symbol_may_have_any_name(text_of: Callable[[str], str]) -> None:
     text = text_of(
         f"{HEAD}\nkind = theory.type('kind', enum('name', 'value', 'node', 'symbols'))\n"
@@ -144,6 +153,8 @@ def test_a_symbol_may_have_any_name(text_of: Callable[[str], str]) -> None:
         ('theory.goal("g", at == float("nan"))', (24, 12), "GL144", "nan is no number", None),
         ('theory.goal("some", lit(1))', (1, 27), "GL006", "word of the language", "the_some"),
         ('theory.goal("1st", lit(1))', (1, 26), "GL143", "cannot be a name", "begin it with a letter"),
+        ('theory.type("t", union())', (19, 7), "GL143", "no type to be joined", "`station | None`"),
+        ('theory.type("t", optional(None))', (19, 14), "GL143", "no type to be joined", "`station | None`"),
         ('theory.type("t", {"a", "b"})', (1, 28), "GL144", "no type of the language", "`enum(…)`"),
         ('theory.type("t", location)', (18, 8), "GL141", "NameError: name 'location' is not defined", None),
         ('theory.type("t", list)', (1, 22), "GL143", "needs the type of its elements", "set[station]"),
