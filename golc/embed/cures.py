@@ -60,7 +60,9 @@ def _of_call(text: str, method: str | None, name: str) -> str | None:
     called = embed.Theory if name == "__init__" else getattr(home, name, None)
     if called is None or isinstance(called, ModuleType):
         return None
-    every = [each for each in inspect.signature(called).parameters.values() if each.name not in ("self", "what")]
+    every = [
+        each for each in inspect.signature(called).parameters.values() if each.name not in ("self", "what", "function")
+    ]
     wrong = re.search(r"unexpected keyword argument '(\w+)'", text)
     if wrong and (near := did_you_mean(wrong[1], [each.name for each in every])):
         return near

@@ -13,7 +13,7 @@ from golc.embed import asked
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.names import new_name
 from golc.embed.owners import owned
-from golc.embed.places import caller
+from golc.embed.places import argument, caller, each_argument
 from golc.embed.terms import Named, Term
 from golc.embed.values import Meaningful, described, expr
 from golc.syntax import tree
@@ -136,13 +136,21 @@ def is_enumeration(handle: TypeHandle) -> bool:
 def interval(low: object, high: object) -> TypeForm:
     """``low .. high``: the integers from one bound to the other, both included; bounds may be terms of constants."""
     span = caller()
-    return TypeForm(tree.IntervalType(expr(low, span), expr(high, span), span=span))
+    first, last = argument(span, 0, "low"), argument(span, 1, "high")
+    return TypeForm(tree.IntervalType(expr(low, first), expr(high, last), span=span))
 
 
 def enum(*elements: object) -> TypeForm:
     """``{a, b}``: symbols, named by strings, or integers, in their order."""
     span = caller()
-    return TypeForm(tree.EnumType(tuple(element(each, span) for each in elements), span=span))
+    return TypeForm(enumeration(tuple(map(element, elements, each_argument(span, len(elements)))), span))
+
+
+def enumeration(elements: tuple[tree.Ident | tree.Number, ...], span: Span) -> tree.EnumType:
+    """The tree of an enumeration. Raises ``Refused`` for one of nothing."""
+    if not elements:
+        raise meaningless("an enumeration has at least one element", span, 'write `enum("red", "green")`')
+    return tree.EnumType(elements, span=span)
 
 
 def element(value: object, span: Span) -> tree.Ident | tree.Number:
@@ -174,20 +182,21 @@ def optional(base: object) -> TypeForm:
 
 def symbols(*names: str) -> Any:
     """The symbols of enumerations that have no name: ``red, green = symbols("red", "green")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span).text, "symbol") for name in names)
+    return _one_or_all(Named(new_name(name, span).text, "symbol") for name, span in _placed(names))
 
 
 def names(*names: str) -> Any:
     """What an imported file declares, types apart: ``bed, water = names("bed", "water")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name in names)
+    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name, span in _placed(names))
 
 
 def types(*names: str) -> Any:
     """The types that an imported file declares: ``row, soil = types("row", "soil")``; of one name itself."""
-    span = caller()
-    return _one_or_all(TypeHandle(new_name(name, span, used=True).text) for name in names)
+    return _one_or_all(TypeHandle(new_name(name, span, used=True).text) for name, span in _placed(names))
+
+
+def _placed(names: Sequence[str]) -> Iterator[tuple[str, Span]]:
+    return zip(names, each_argument(caller(), len(names)), strict=True)
 
 
 def _one_or_all(things: Iterable[object]) -> object:
@@ -258,4 +267,5 @@ def _no_type(value: object, span: Span) -> Refused:
         return refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
     if isinstance(value, (list, tuple, set, frozenset)):
         help_ = "write `enum(…)` around its elements, `enum(*names)` for all that a list has"
-    return refused(Code.PYTHON_VALUE, f"{described(value)} is no type of the language", span, help_)
+    what = described(value) if typing.get_origin(value) is None else f"`{value}`"
+    return refused(Code.PYTHON_VALUE, f"{what} is no type of the language", span, help_)

@@ -418,7 +418,7 @@ at = theory.fluent("at", town, town.Bonn)
         (
             'theory.type("town", enum("Bad Godesberg"))',
             "`Bad Godesberg` cannot be a name",
-            'enum("Bad Godesberg")',
+            '"Bad Godesberg"',
             "begin it with a letter and go on with letters (without accents), digits and `_`, as in `Bad_Godesberg`",
         ),
     ],

@@ -11,7 +11,18 @@ from golc.embed.errors import meaningless
 from golc.embed.names import golc_name, new_name
 from golc.embed.reading.arguments import Arguments
 from golc.embed.reading.evaluate import NOT_PYTHON
-from golc.embed.types import TypeObject, element, enum, interval, is_built_in, join_nodes, optional, type_node, union
+from golc.embed.types import (
+    TypeObject,
+    element,
+    enum,
+    enumeration,
+    interval,
+    is_built_in,
+    join_nodes,
+    optional,
+    type_node,
+    union,
+)
 from golc.syntax import tree
 
 
@@ -59,7 +70,7 @@ class Annotations(Arguments):
             low, high = self.arguments(node, 2)
             return tree.IntervalType(self.expr(low), self.expr(high), span=span)
         if called is enum:
-            return tree.EnumType(tuple(self._element(arg) for arg in self.every_argument(node)), span=span)
+            return enumeration(tuple(self._element(arg) for arg in self.every_argument(node)), span)
         if called is union:
             return self._union(self.every_argument(node), span)
         if called is optional:
