@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from golc.api.state import State
     from golc.api.unfinished import Unfinished
     from golc.diagnostics import Diagnostic
-    from golc.runtime.running import Run
+    from golc.runtime.record import Run
 
 MOST = 200
 """Rows of a table and steps of a plan that are shown."""
