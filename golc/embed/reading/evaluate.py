@@ -14,7 +14,7 @@ from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
 from golc.embed.reading.functions import Function
 from golc.embed.terms import Term, variable
-from golc.embed.types import BUILT_IN, TypeHandle, TypeObject, enum, interval, optional, symbols, symbols_of, union
+from golc.embed.types import TypeHandle, TypeObject, enum, interval, is_built_in, optional, symbols, symbols_of, union
 from golc.embed.values import is_unsettled
 from golc.embed.words import Value, Word
 from golc.theory.python_file import failure
@@ -38,12 +38,7 @@ def _holds_terms(value: object) -> bool:
         return any(_holds_terms(each) for each in value)
     if isinstance(value, dict):
         return any(_holds_terms(each) for each in (*value.keys(), *value.values()))
-    return isinstance(value, (Term, Word, Value, TypeObject)) or _is_ours(value) or _is_type(value)
-
-
-def _is_type(value: object) -> bool:
-    """Whether a value is a class that is also a type of the language."""
-    return any(value is each for each in BUILT_IN)
+    return isinstance(value, (Term, Word, Value, TypeObject)) or _is_ours(value) or is_built_in(value)
 
 
 class Evaluator:
@@ -70,7 +65,7 @@ class Evaluator:
                 base = self(owner)
                 if isinstance(base, TypeHandle) and isinstance(node, ast.Attribute):
                     return self._symbol(base, node)
-                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or _is_type(base)
+                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or is_built_in(base)
                 if isinstance(node, ast.Subscript) and isinstance(base, (list, tuple, dict)):
                     self._check_index(node, base.values() if isinstance(base, dict) else base)
                 return NOT_PYTHON if ours else self._run(node)
@@ -113,7 +108,7 @@ class Evaluator:
     def _constant(self, node: ast.expr) -> bool:
         """Whether there are names in an expression that mean nothing in the language, and all in it is Python's."""
         values = [self.name(each) for each in free_names(node)]
-        return not all(_is_ours(value) or _is_type(value) for value in values) and self._plain(node)
+        return not all(_is_ours(value) or is_built_in(value) for value in values) and self._plain(node)
 
     def _plain(self, node: ast.expr) -> bool:
         match node:
