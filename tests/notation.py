@@ -48,7 +48,7 @@ def _reads(piece: str) -> bool:
 
 
 def _whole(piece: str) -> str:
-    """A piece of code with what makes it whole: a decorator needs a function, a head its block, a generator brackets."""
+    """A piece of code with what makes it whole: a function for a decorator, a block for a head, brackets for a generator."""
     match piece.split()[0], piece[-1]:
         case _, ":" | "=":
             return piece + " ..."
