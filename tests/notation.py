@@ -48,7 +48,7 @@ def _reads(piece: str) -> bool:
 
 
 def _whole(piece: str) -> str:
-    """A piece of code with what makes it whole: a function for a decorator, a block for a head, brackets for a generator."""
+    """A piece of code and what it lacks: a decorator its function, a head its block, a generator its brackets."""
     match piece.split()[0], piece[-1]:
         case _, ":" | "=":
             return piece + " ..."
