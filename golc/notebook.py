@@ -17,12 +17,12 @@ from golc.situation.summary import Family, arguments, families
 from golc.theory.types import show
 
 if TYPE_CHECKING:
+    from golc.api.declared import Declared
     from golc.api.report import Report
     from golc.api.state import State
-    from golc.api.theory import Theory
     from golc.api.unfinished import Unfinished
     from golc.diagnostics import Diagnostic
-    from golc.runtime.running import Run
+    from golc.runtime.record import Run
 
 MOST = 200
 """Rows of a table and steps of a plan that are shown."""
@@ -30,7 +30,7 @@ MOST = 200
 CELL = ' style="text-align: left; vertical-align: top"'
 
 
-def theory_html(theory: Theory) -> str:
+def theory_html(theory: Declared) -> str:
     """Everything that a theory declares, in tables."""
     head = f"<p><b>{escape(theory.name)}</b> ({escape(theory.path)}): {escape(theory.counts())}</p>"
     return _div(head, *[_table(each.headings, each.rows) for each in tables(theory.elaborated)])

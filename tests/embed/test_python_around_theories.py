@@ -82,7 +82,7 @@ def test_the_variable_of_a_loop_has_to_be_given(wrong_with: Wrong) -> None:
         ("GL145", "`k` was 0 when the function was declared and is 2 now", 10, "k"),
         ("GL145", "`k` was 1 when the function was declared and is 2 now", 10, "k"),
     ]
-    assert found[0].help == "give it to the function as a default: `def set_level(…, k=k)`"
+    assert found[0].help == "give it to the function as a default: `def set_level(…, k=k):`"
 
 
 def test_a_mutable_default_is_refused(wrong_with: Wrong) -> None:
