@@ -133,6 +133,8 @@ def test_settings_that_make_sense_are_taken(workshop: Workshop) -> None:
         ("    set action_base 100\n", []),
         ("    set action_base 50\n", ["GL092"]),
         ("    set control_base 250\n", []),
+        ("    set action_base 224\n", []),
+        ("    set action_base 225\n", ["GL092"]),
         ("    set control_base 70\n", ["GL092"]),
         ("    set action_base 200\n    set action_digits 40\n", ["GL092"]),
     ],

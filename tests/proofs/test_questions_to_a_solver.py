@@ -116,3 +116,18 @@ def test_each_formula_by_itself(formula: str) -> None:
     maybes = [None, frozenset[int](), frozenset({1}), frozenset({1, 2})]
     states = itertools.product(range(3), SUBSETS, maybes, LISTS, ["", "x"])
     assert agrees(formula, [(x, seen, *empty, maybe, route, note) for x, seen, maybe, route, note in states])
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "quotient", "rest"),
+    [(7, 2, 3, 1), (-7, 2, -4, 1), (7, -2, -4, -1), (-7, -2, 3, -1), (6, -2, -3, 0), (0, -5, 0, 0)],
+)
+def test_a_solver_divides_as_the_language_does(left: int, right: int, quotient: int, rest: int) -> None:
+    """The quotient is rounded down; what remains has the sign of the divisor."""
+    for wrong in (0, 1):
+        theory = theory_of(
+            f"domain trial\nfluent a: int = 0\nfluent b: int = 0\ndefine asked := a = {left} and b = {right}"
+            f" and (a // b != {quotient + wrong} or a % b != {rest})\n"
+        )
+        found = solve(theory, Question((), (Asked(theory.definitions["asked"].body),)))
+        assert (found is None) == (wrong == 0)

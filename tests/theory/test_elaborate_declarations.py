@@ -167,6 +167,21 @@ def test_what_stands_in_place_of_a_name_declares_even_if_nothing_uses_it(theory:
     assert theory("action paint(c: {red, green})\n").symbols == {"red", "green"}
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("type t = 2..2\n", []),
+        ("type t = 3..2\n", ["1:10 GL022 the interval 3..2 is empty"]),
+        ("fluent f(n: 1..1000, m: 1..1000) = false\n", []),
+        ("fluent f(n: 1..1000, m: 1..1001) = false\n", ["1:8 GL022 fluent `f` has more than 1000000 instances"]),
+        ("action a:\n    cost 0\n", []),
+        ("action a:\n    cost -1\n", ["2:10 GL017 the cost -1 is negative"]),
+    ],
+)
+def test_limits_are_exact(found: Build, text: str, expected: list[str]) -> None:
+    assert found(text) == expected
+
+
 def test_an_interval_that_cannot_be_counted_is_refused(found: Build) -> None:
     text = f"const top = {2**70}\ntype vast = 0..top\nfluent far: vast = top\n"
     assert [line.split()[1] for line in found(text)] == ["GL022"]
