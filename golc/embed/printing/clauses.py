@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 from golc.embed.names import python_name
-from golc.embed.printing.functions import called, word_call, loop
+from golc.embed.printing.functions import called, loop, word_call
 from golc.embed.printing.layout import INDENT, Brackets, Doc, Joined
 from golc.embed.printing.names import Names
 from golc.embed.printing.strings import quoted

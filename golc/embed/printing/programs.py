@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from golc.embed.names import python_name
-from golc.embed.printing.functions import called, word_call, loop, with_head
+from golc.embed.printing.functions import called, loop, with_head, word_call
 from golc.embed.printing.layout import INDENT, Doc, laid_out, laid_out_value
 from golc.embed.printing.names import Names
 from golc.embed.printing.strings import quoted
