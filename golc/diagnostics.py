@@ -69,6 +69,10 @@ class Span:
         """From the start of this span to the end of the other one."""
         return Span(self.source, self.start, other.end)
 
+    def either(self, golc: str, python: str) -> str:
+        """Of two texts the one in the form in which this place is written: golc's own, or Python."""
+        return python if self.source.python else golc
+
     def __str__(self) -> str:
         return f"{self.source.name}:{self.line}:{self.column}"
 
