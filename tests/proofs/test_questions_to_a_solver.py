@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from os import environ
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from golc.diagnostics import ProgramError
 from golc.proofs.questions import Asked, Question
 from golc.proofs.solver import solve
 from golc.proofs.symbols import NotDecidedError
 from golc.situation.dynamics import Dynamics
 from golc.theory.types import show_call
+from tests.proofs.outcomes import outcome
 from tests.theories import theory_of
 
 HEAD = """\
@@ -54,14 +54,6 @@ def formulas(atoms: list[str]) -> st.SearchStrategy[str]:
     pairs = st.tuples(st.sampled_from(atoms), st.sampled_from(["and", "or", "implies"]), st.sampled_from(atoms))
     joined = pairs.map(lambda parts: f"({parts[0]}) {parts[1]} ({parts[2]})")
     return st.one_of(st.sampled_from(atoms), joined, joined.map(lambda formula: f"not ({formula})"))
-
-
-def outcome(evaluate: Callable[..., object], state: tuple[object, ...]) -> bool | None:
-    """Whether a formula is true; none if it has no value."""
-    try:
-        return bool(evaluate(state, ()))
-    except ProgramError:
-        return None
 
 
 def agrees(formula: str, states: Sequence[tuple[object, ...]]) -> bool:
