@@ -176,6 +176,12 @@ def test_what_stands_in_place_of_a_name_declares_even_if_nothing_uses_it(theory:
         ("fluent f(n: 1..1000, m: 1..1001) = false\n", ["1:8 GL022 fluent `f` has more than 1000000 instances"]),
         ("action a:\n    cost 0\n", []),
         ("action a:\n    cost -1\n", ["2:10 GL017 the cost -1 is negative"]),
+        ("proc p:\n    star at most 0:\n        skip\n", []),
+        ("proc p:\n    star at most -1:\n        skip\n", ["2:18 GL017 the number -1 is negative"]),
+        ("proc p:\n    wait 0 s\n", []),
+        ("proc p:\n    wait -0.5 s\n", ["2:10 GL017 the time -0.5 s is negative"]),
+        ("action a\ndevice self:\n    a timeout 0.1 s\n", []),
+        ("action a\ndevice self:\n    a timeout 0 s\n", ["3:15 GL017 a timeout has to be positive"]),
     ],
 )
 def test_limits_are_exact(found: Build, text: str, expected: list[str]) -> None:
