@@ -319,6 +319,12 @@ class GolcError(Exception):
 
     exit_code = 70
 
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows in place of a traceback."""
+        from golc.notebook import error_lines
+
+        return error_lines(self)
+
 
 def _rendered(diagnostics: tuple[Diagnostic, ...]) -> str:
     """The text of an error, made when a traceback or somebody else wants it: what the command line would write."""
