@@ -149,5 +149,5 @@ def test_only_comments_of_python_are_comments(tmp_path: Path) -> None:
     path = tmp_path / "a.py"
     path.write_text(PYTHON)
 
-    assert shown(path) == ["9:27 GL032 there is no finding GL027 to leave out here | remove the code"]
+    assert shown(path) == ["9:29 GL032 there is no finding GL027 to leave out here | remove the code"]
     assert [finding.fix for finding in heed(examine(path, proofs=True), True)] == [None]
