@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from golc.embed import Theory, after, bind, branch, causes, cost, each, enum, expect, given, interval, on, poss, run
 from golc.embed import choose, count, guard, interrupts, known, let, one_of, otherwise, pick, say, search, senses
-from golc.embed import setting, star, test, together, unknown, until, var, wait, within
+from golc.embed import optional, setting, star, test, together, union, unknown, until, var, wait, within
 
 theory = Theory("mistakes")
 station = theory.type("station", interval(1, 6))
@@ -827,3 +827,25 @@ def g_each(n: station):
 #! 12+10 GL143 `n` is a parameter, and no goal has any
 #! help: write `… for n in station` in it; with a default it is a constant of Python
     return free(n)
+
+
+@theory.fluent
+def no_alternatives(n: union()):
+#! 24+7 GL143 there is no type to be joined
+#! help: write `station | None` or `station | enum("table")`
+    return True
+
+
+@theory.fluent
+def two_bases(n: optional(station, phase)):
+#! 18+24 GL015 `optional` takes 1 argument by place, not 2
+    return True
+
+
+AT_THREE = location == 3
+
+
+@theory.define
+def called_formula():
+    return AT_THREE()
+#! 12+8 GL143 this cannot be called
