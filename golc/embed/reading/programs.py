@@ -13,7 +13,7 @@ from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name, new_name
 from golc.embed.reading.bodies import Bodies
 from golc.embed.reading.evaluate import NOT_PYTHON
-from golc.embed.terms import Named, Term
+from golc.embed.terms import PROGRAMS, Named, Term
 from golc.syntax import tree
 
 _BRANCHING: Mapping[words.Word, Any] = {
@@ -293,5 +293,5 @@ class Programs(Bodies):
 def _is_no_value(value: object) -> bool:
     """Whether something cannot be an element of a list of the language: an action, a tuple, a function."""
     if isinstance(value, Named):
-        return value.kind in ("action", "exogenous action", "procedure")
+        return value.kind in PROGRAMS
     return not (value is None or isinstance(value, (bool, int, float, str, Term)))

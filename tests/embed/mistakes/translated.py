@@ -888,3 +888,12 @@ def no_alternatives(n: union()):
 def two_bases(n: optional(station, phase)):
 #! 18+24 GL015 `optional` takes 1 argument by place, not 2
     return True
+
+
+AT_THREE = location == 3
+
+
+@theory.define
+def called_formula():
+    return AT_THREE()
+#! 12+8 GL143 this cannot be called
