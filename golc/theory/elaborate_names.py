@@ -20,7 +20,7 @@ from golc.theory.types import BOOL, Collection, Enumeration, Type, show
 ASKING = (*FUNCTIONS, "known", "knows", "possible")
 """Words of the language that stand before an argument."""
 
-VALUES = ("true", "false", "none", "unknown", "waiting")
+VALUES = ("true", "false", "none", "unknown")
 """Words of the language that stand where a value can."""
 
 STATEMENTS = ("skip", "wait")
@@ -146,7 +146,8 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
         return None
     similar = context.names.similar(name.text, kinds, given)
     if similar is None:
-        help_ = f"declare it: `action {name.text}`" + (f", or `proc {name.text}: …`" if Kind.PROCEDURE in kinds else "")
+        written, what = name.text + ("(…)" if given else ""), "exog" if [*kinds] == [Kind.EXOGENOUS] else "action"
+        help_ = f"declare it: `{what} {written}`" + (f", or `proc {written}: …`" if Kind.PROCEDURE in kinds else "")
         if Kind.PROCEDURE in kinds and not given:
             help_ = _as_word(name.text) or help_
         context.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
@@ -211,6 +212,7 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     variables = () if given else tuple(scope.locals)
     similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
+    local = None if similar is None or similar.labels else scope.locals.get(similar.name)
     if similar is None and not given and name.text.lower() in ("true", "false", "none", "null"):
         _capital(context, name)
         return
@@ -227,7 +229,7 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         what, help_ = ("fluent", f"declare it: `fluent {name.text}(…) = …`") if given else ("name", _declare(name.text))
         context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
     else:
-        context.misspelt(Code.UNKNOWN_NAME, name.span, similar)
+        context.misspelt(Code.UNKNOWN_NAME, name.span, similar, None if local is None else local.span)
 
 
 def _capital(context: Context, name: tree.Ident) -> None:

@@ -101,7 +101,7 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     if found.type == STRING and what == "`+`":
         help_ = '`"{…}{…}"` puts texts together'
     elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES:
-        help_ = _parentheses(what.strip("`"))
+        help_ = parentheses(what.strip("`"))
     mismatch(context, found, "a number", what, help_)
     return broken(found.span)
 
@@ -129,7 +129,7 @@ def cure(found: Term, needed: Type) -> str | None:
     if isinstance(found, Literal) and found.value is None:
         return f"the type `{needed}?` has the value `none`, too"
     if needed == BOOL and isinstance(found, Quantified) and not python:
-        return _parentheses(found.kind)
+        return parentheses(found.kind)
     if needed == BOOL:
         return f"compare it: `{shown(found)} {'==' if python else '='} …`"
     if have and want and have.kind != want.kind and not have.element.kinds:
@@ -154,8 +154,9 @@ def _without_quotes(found: Term, needed: Type) -> str:
     return "values of an enumeration stand without quotes"
 
 
-def _parentheses(kind: str) -> str:
-    return f"write `({kind} …) = …`: without parentheses `{kind}` takes in everything to its right"
+def parentheses(kind: str, op: str = "=") -> str:
+    """What helps against an aggregate that takes in the comparison it was to be a part of."""
+    return f"write `({kind} …) {op} …`: without parentheses `{kind}` takes in everything to its right"
 
 
 def shown(found: Term) -> str:
