@@ -5,11 +5,14 @@ Whatever stands in a domain is text here, never markup.
 
 from __future__ import annotations
 
+import linecache
+import traceback
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
 from golc.api.contents import tables
+from golc.embed.places import source_of
 from golc.planning.plans import Plan, answers
 from golc.program.labels import Act
 from golc.rendering import render
@@ -17,12 +20,12 @@ from golc.situation.summary import Family, arguments, families
 from golc.theory.types import show
 
 if TYPE_CHECKING:
+    from golc.api.declared import Declared
     from golc.api.report import Report
     from golc.api.state import State
-    from golc.api.theory import Theory
     from golc.api.unfinished import Unfinished
-    from golc.diagnostics import Diagnostic
-    from golc.runtime.running import Run
+    from golc.diagnostics import Diagnostic, GolcError
+    from golc.runtime.record import Run
 
 MOST = 200
 """Rows of a table and steps of a plan that are shown."""
@@ -30,7 +33,7 @@ MOST = 200
 CELL = ' style="text-align: left; vertical-align: top"'
 
 
-def theory_html(theory: Theory) -> str:
+def theory_html(theory: Declared) -> str:
     """Everything that a theory declares, in tables."""
     head = f"<p><b>{escape(theory.name)}</b> ({escape(theory.path)}): {escape(theory.counts())}</p>"
     return _div(head, *[_table(each.headings, each.rows) for each in tables(theory.elaborated)])
@@ -102,6 +105,16 @@ def report_html(report: Report) -> str:
 
 def _findings(findings: Sequence[Diagnostic]) -> Iterator[str]:
     return (f"<pre>{escape(render(finding))}</pre>" for finding in findings[:MOST])
+
+
+def error_lines(error: GolcError) -> list[str]:
+    """The lines of an error: where in cells and files outside golc it was met, and what it says."""
+    lines: list[str] = []
+    for frame, number in traceback.walk_tb(error.__traceback__):
+        if str(frame.f_globals.get("__name__")).partition(".")[0] not in ("golc", "IPython"):
+            file = frame.f_code.co_filename
+            lines += [f"{source_of(file).name}, line {number}:", f"    {linecache.getline(file, number).strip()}"]
+    return [*lines, *str(error).splitlines()]
 
 
 def _values(family: Family) -> str:

@@ -25,6 +25,8 @@ def chosen(theory: BasicActionTheory, name: str | None) -> list[Device]:
             raise ValueError(f"there is no brick {name!r}; there is {known}")
     if not bricks:
         message = f"the domain `{theory.name}` has no device of kind `rcx`, for which a program could be generated"
-        help_ = 'add a block `device rcx "behaviours.nqc":` with the actions that the brick does'
-        raise UserError(Diagnostic(Code.NO_DEVICE, message, Span(theory.source, 0, 0), help=help_))
+        place = Span(theory.source, 0, 0)
+        head = place.either('device rcx "behaviours.nqc":', '@theory.device("rcx", file="behaviours.nqc")')
+        help_ = f"add a block `{head}` with the actions that the brick does"
+        raise UserError(Diagnostic(Code.NO_DEVICE, message, place, help=help_))
     return bricks

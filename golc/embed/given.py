@@ -17,9 +17,6 @@ from golc.embed.types import type_node
 from golc.embed.values import described
 from golc.syntax import tree
 
-ONLY_BY_NAME = 9
-"""The place among its arguments of one that no call has by its place."""
-
 MISSING: Any = object()
 """Stands for an argument that is left out, where ``None`` is a value."""
 
@@ -51,7 +48,7 @@ def typed(type_: object, span: Span) -> tree.Type | None:
 
 def parameters_of(types: Mapping[str, object] | None, span: Span) -> tuple[tree.Parameter, ...]:
     """The parameters that a mapping from names to types stands for, in a declaration that is a call."""
-    given, place = (types or {}).items(), argument(span, ONLY_BY_NAME, "parameters")
+    given, place = (types or {}).items(), argument(span, None, "parameters")
     return tuple(tree.Parameter(new_name(name, place), type_node(type_, place), span=place) for name, type_ in given)
 
 

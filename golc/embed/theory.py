@@ -10,7 +10,7 @@ from typing import Any
 from golc.diagnostics import Code
 from golc.embed.declaring import Declaring
 from golc.embed.errors import meaningless, refused
-from golc.embed.given import MISSING, ONLY_BY_NAME, applied, named, needed, parameters_of, path_of, typed
+from golc.embed.given import MISSING, applied, named, needed, parameters_of, path_of, typed
 from golc.embed.names import new_name
 from golc.embed.parts import Parts, Written
 from golc.embed.places import argument, caller
@@ -118,7 +118,7 @@ class Theory(Declaring):
     def extern(self, *, file: str | PathLike[str], name: str | None = None) -> Callable[[Callable[..., Any]], Any]:
         """``extern f(a: t): u from "helpers.py"``: a function that Python computes; a decorator of a function without
         a body."""
-        path = path_of(file, argument(caller(), ONLY_BY_NAME, "file"))
+        path = path_of(file, argument(caller(), None, "file"))
         return self._decorator("extern", lambda t, ident: declarations.extern(t, ident, path), name)
 
     def fluent(
@@ -217,7 +217,7 @@ class Theory(Declaring):
         if isinstance(kind, FunctionType):
             raise meaningless("a device needs its kind", span, 'write `@theory.device("operator")`')
         what = new_name(kind, span, used=True)
-        path = None if file is None else path_of(file, argument(span, ONLY_BY_NAME, "file"))
+        path = None if file is None else path_of(file, argument(span, None, "file"))
         called = None if name is None else new_name(name, span, used=True)
         return self._decorator(
             "device", lambda t, _: declarations.device(t, what, called, path), kind, ("device", name)

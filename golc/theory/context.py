@@ -177,7 +177,7 @@ class Context:
         self.findings.add(finding)
         self.blame.accuse(finding, suspects)
 
-    def misspelt(self, code: Code, name: Span, similar: Suggestion, bound: Span | None = None) -> None:
+    def misspelt(self, code: Code, name: tree.Ident, similar: Suggestion, bound: Span | None = None) -> None:
         """A name that is declared nowhere, but one like it is; ``bound`` is the place that binds that one if it is a
         variable."""
         kind = "type" if code is Code.UNKNOWN_TYPE else similar.kind
@@ -185,7 +185,8 @@ class Context:
         spare = place is not None and self._is_spare(similar.name, bound)
         suspects = [Suspect(Matter.NAME, place)] if place is not None and spare else []
         message = f"unknown {kind} `{name.text}`"
-        self.error(code, message, name, "not declared", similar.help, similar.labels, suspects)
+        help_ = similar.help(name.span)
+        self.error(code, message, name.span, "not declared", help_, similar.labels, suspects)
         self._misspelt.setdefault((name.text, code, place), []).append(self.findings.diagnostics[-1])
 
     def _is_spare(self, name: str, bound: Span | None) -> bool:
@@ -222,9 +223,10 @@ class Context:
         faulty = [Suspect(matter, entry.span) for entry in wrong for matter in _untyped(entry.node)]
         faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE, Code.PYTHON))]
         faulty += [Suspect(Matter.NAME, entry.span) for entry in self._wrong((Code.PYTHON,))]
-        self.findings.diagnostics[:] = _said_once(
-            self.blame.settle(self.findings.diagnostics, faulty), self._misspelt.values()
-        )
+        spaces = (self.names.values, self.names.doings)
+        names = {entry.span: entry.name for space in spaces for entry in space.entries.values()}
+        settled = self.blame.settle(self.findings.diagnostics, faulty, names)
+        self.findings.diagnostics[:] = _said_once(settled, self._misspelt.values())
 
     def _merge_missing(self) -> None:
         """Sort the uses of each missing name. A use that is like some other name is one of them all the same; and

@@ -11,6 +11,8 @@ from pathlib import Path
 import pytest
 
 from golc.embed.modules import read_theory
+from golc.rendering import render
+from tests.notation import no_python
 
 FILES = sorted(Path(__file__).with_name("mistakes").glob("*.py"))
 
@@ -19,6 +21,7 @@ FILES = sorted(Path(__file__).with_name("mistakes").glob("*.py"))
 def test_each_mistake_is_one_finding_and_hides_none(path: Path) -> None:
     said = []
     for diagnostic in read_theory(path).findings.diagnostics:
+        assert no_python(render(diagnostic)) == []
         span = diagnostic.span
         place = f"{span.column}+{span.end - span.start}"
         said.append((span.line, f"{place} {diagnostic.code.code} {diagnostic.message}"))

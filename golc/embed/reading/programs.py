@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
+from types import FunctionType
 from typing import Any
 
 from golc.diagnostics import Code, Span
@@ -81,6 +82,9 @@ class Programs(Bodies):
         if isinstance(word, words.Word) and word in _SPOKEN:
             (text,) = self.arguments(node, 1)
             return _SPOKEN[word](self.message(text), span=span)  # type: ignore[no-any-return]
+        if isinstance(word, FunctionType) and self.python(node) is None:
+            help_ = f"put `@theory.proc` above `def {word.__name__}`, or write its lines here"
+            raise meaningless("a function of Python does nothing in a program", span, help_)
         return tree.Call(self.application(node), span=span)
 
     def _wait(self, node: ast.Call, span: Span) -> tree.Statement:
