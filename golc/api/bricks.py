@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, Span, UserError
 from golc.nqc.toolchain import Target
+from golc.theory.forms import add_a_brick
 from golc.theory.theory import BasicActionTheory, Device
 
 
@@ -26,7 +27,5 @@ def chosen(theory: BasicActionTheory, name: str | None) -> list[Device]:
     if not bricks:
         message = f"the domain `{theory.name}` has no device of kind `rcx`, for which a program could be generated"
         place = Span(theory.source, 0, 0)
-        head = place.either('device rcx "behaviours.nqc":', '@theory.device("rcx", file="behaviours.nqc")')
-        help_ = f"add a block `{head}` with the actions that the brick does"
-        raise UserError(Diagnostic(Code.NO_DEVICE, message, place, help=help_))
+        raise UserError(Diagnostic(Code.NO_DEVICE, message, place, help=add_a_brick(place)))
     return bricks

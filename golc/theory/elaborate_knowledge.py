@@ -65,8 +65,7 @@ def _among(context: Context, scope: Scope, node: tree.Expr, type_: Type, what: s
     whole, word = collection(found.type), node.span.either("one of", "one_of")
     if whole is None:
         message = f"`{word}` chooses from a set or list, and this is of type {describe(found.type, node.span)}"
-        listed = f"{{{node.span.text}}}"
-        help_ = f"write `{node.span.either(f'one of {listed}', f'one_of({listed})')}`"
+        help_ = f"write `{node.span.either(f'one of {{{node.span.text}}}', 'one_of({…})')}`"
         context.error(Code.TYPE_MISMATCH, message, node.span, "not a set or list", help_)
         return None
     needed = Collection(whole.kind, type_)

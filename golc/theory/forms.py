@@ -97,8 +97,8 @@ def sign(text: str, place: Span) -> str:
 
 
 def is_call(name: Span) -> bool:
-    """Whether Python declares something by a call, which is the place of its name then, not by a function."""
-    return name.source.python and "(" in name.text
+    """Whether Python declares something by a call, not by a function, whose name is the place of its name then."""
+    return name.source.python and not name.text.isidentifier()
 
 
 def typed_declaration(kind: str, name: tree.Ident, type_: Type, value: str = "…") -> str:
@@ -118,3 +118,9 @@ def setting_text(name: str, value: object, place: Span) -> str:
 def behaviour_text(kind: str, name: str, place: Span) -> str:
     """What carries out a binding: ``call`` or ``start``, and the name of the behaviour."""
     return place.either(f"by {kind} {name}", f'{kind}="{name}"')
+
+
+def add_a_brick(place: Span) -> str:
+    """What helps where a theory has no brick."""
+    golc, python = 'device rcx "behaviours.nqc":', '@theory.device("rcx", file="behaviours.nqc")'
+    return f"add a block `{place.either(golc, python)}` with the actions that the brick does"

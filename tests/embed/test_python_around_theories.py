@@ -490,6 +490,10 @@ def test_a_table_from_a_file_is_told_what_is_missing(
             "from golc.embed import Theory\ndef lifts(n):\n    return Theory('lifts')",
             "call the function that makes it where every import runs it: `theory = delivery(6)`",
         ),
+        (
+            "from golc.embed import symbols\nred, green = symbols('red', 'green')",
+            'begin it with `from golc.embed import Theory` and `theory = Theory("delivery")`',
+        ),
     ],
 )
 def test_what_helps_where_a_file_fails(wrong_with: Wrong, text: str, help_: str | None) -> None:
