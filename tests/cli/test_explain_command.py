@@ -167,7 +167,7 @@ Right
 def test_a_code_about_the_text_has_no_examples_in_python(capsys: Captured) -> None:
     assert invoke(["explain", "GL009", "--python"]) == 0
     out, err = capsys.readouterr()
-    assert out.startswith("GL009: ") and "fluent" in out
+    assert out.startswith("GL009: ") and "domain lamp" in out
     assert err == "GL009 is about the text of a `.gl` file: its examples have no form in Python\n"
 
 
