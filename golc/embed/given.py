@@ -11,7 +11,7 @@ from golc.diagnostics import Code, Span
 from golc.embed import words
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import new_name
-from golc.embed.places import caller
+from golc.embed.places import argument, caller
 from golc.embed.terms import Term
 from golc.embed.types import type_node
 from golc.embed.values import described
@@ -24,7 +24,7 @@ MISSING: Any = object()
 def named(name: object) -> tuple[tree.Ident, Span]:
     """The name of what is declared, and the place of the call."""
     span = caller()
-    return new_name(name, span), span
+    return new_name(name, argument(span, 0, "name")), span
 
 
 def needed(value: object, span: Span) -> object:
@@ -42,14 +42,14 @@ def path_of(value: object, span: Span) -> str:
 
 
 def typed(type_: object, span: Span) -> tree.Type | None:
-    """The type of a fluent or static, which has ``None`` if it is left out."""
-    return None if type_ is None else type_node(type_, span)
+    """The type of a fluent or static declared by a call, which has ``None`` if it is left out."""
+    return None if type_ is None else type_node(type_, argument(span, 1, "type"))
 
 
 def parameters_of(types: Mapping[str, object] | None, span: Span) -> tuple[tree.Parameter, ...]:
-    """The parameters that a mapping from names to types stands for."""
-    given = (types or {}).items()
-    return tuple(tree.Parameter(new_name(name, span), type_node(type_, span), span=span) for name, type_ in given)
+    """The parameters that a mapping from names to types stands for, in a declaration that is a call."""
+    given, place = (types or {}).items(), argument(span, None, "parameters")
+    return tuple(tree.Parameter(new_name(name, place), type_node(type_, place), span=place) for name, type_ in given)
 
 
 def applied(value: object, parameters: tuple[tree.Parameter, ...], span: Span) -> object:

@@ -33,7 +33,7 @@ class Theory(Declaring):
 
     def __init__(self, domain: str) -> None:
         place = caller()
-        super().__init__(Parts(new_name(domain, place), place))
+        super().__init__(Parts(new_name(domain, argument(place, 0, "domain")), place))
 
     def __repr__(self) -> str:
         return f"<golc theory {self.name}>"
@@ -86,7 +86,7 @@ class Theory(Declaring):
             return self._decorated(what, name, "type", declarations.type_)
         ident, span = named(what)
         needed(value, span)
-        node = tree.TypeDecl(ident, type_node(value, span), span=span)
+        node = tree.TypeDecl(ident, type_node(value, argument(span, 1, "value")), span=span)
         self._keep(ident.text, "type", lambda: node)
         return self._type(ident.text, node.type)
 
@@ -118,7 +118,7 @@ class Theory(Declaring):
     def extern(self, *, file: str | PathLike[str], name: str | None = None) -> Callable[[Callable[..., Any]], Any]:
         """``extern f(a: t): u from "helpers.py"``: a function that Python computes; a decorator of a function without
         a body."""
-        path = path_of(file, argument(caller(), 0, "file"))
+        path = path_of(file, argument(caller(), None, "file"))
         return self._decorator("extern", lambda t, ident: declarations.extern(t, ident, path), name)
 
     def fluent(
@@ -162,7 +162,9 @@ class Theory(Declaring):
         """``exog e(x: t): …``, what happens by itself; ``expected``: look-ahead may count on it; ``sources``: who may
         report it. A decorator."""
         span = caller()
-        reporters = tuple(new_name(source, span, used=True) for source in sources)
+        reporters = tuple(
+            new_name(each, span, used=True) for each in ([sources] if isinstance(sources, str) else sources)
+        )
 
         def make(t: declarations.Translator, ident: tree.Ident) -> tree.Exog:
             return declarations.exog(t, ident, bool(expected), reporters)
@@ -215,7 +217,7 @@ class Theory(Declaring):
         if isinstance(kind, FunctionType):
             raise meaningless("a device needs its kind", span, 'write `@theory.device("operator")`')
         what = new_name(kind, span, used=True)
-        path = None if file is None else path_of(file, argument(span, 1, "file"))
+        path = None if file is None else path_of(file, argument(span, None, "file"))
         called = None if name is None else new_name(name, span, used=True)
         return self._decorator(
             "device", lambda t, _: declarations.device(t, what, called, path), kind, ("device", name)

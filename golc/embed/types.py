@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import Code, Span
 from golc.embed import asked
-from golc.embed.errors import meaningless, refused
+from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.names import new_name
 from golc.embed.owners import owned
-from golc.embed.places import caller
+from golc.embed.places import argument, caller, each_argument
 from golc.embed.terms import Named, Term
 from golc.embed.values import Meaningful, described, expr
 from golc.syntax import tree
@@ -136,13 +136,21 @@ def is_enumeration(handle: TypeHandle) -> bool:
 def interval(low: object, high: object) -> TypeForm:
     """``low .. high``: the integers from one bound to the other, both included; bounds may be terms of constants."""
     span = caller()
-    return TypeForm(tree.IntervalType(expr(low, span), expr(high, span), span=span))
+    first, last = argument(span, 0, "low"), argument(span, 1, "high")
+    return TypeForm(tree.IntervalType(expr(low, first), expr(high, last), span=span))
 
 
 def enum(*elements: object) -> TypeForm:
     """``{a, b}``: symbols, named by strings, or integers, in their order."""
     span = caller()
-    return TypeForm(tree.EnumType(tuple(element(each, span) for each in elements), span=span))
+    return TypeForm(enumeration(tuple(map(element, elements, each_argument(span, len(elements)))), span))
+
+
+def enumeration(elements: tuple[tree.Ident | tree.Number, ...], span: Span) -> tree.EnumType:
+    """The tree of an enumeration. Raises ``Refused`` for one of nothing."""
+    if not elements:
+        raise meaningless("an enumeration has at least one element", span, 'write `enum("red", "green")`')
+    return tree.EnumType(elements, span=span)
 
 
 def element(value: object, span: Span) -> tree.Ident | tree.Number:
@@ -174,20 +182,21 @@ def optional(base: object) -> TypeForm:
 
 def symbols(*names: str) -> Any:
     """The symbols of enumerations that have no name: ``red, green = symbols("red", "green")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span).text, "symbol") for name in names)
+    return _one_or_all(Named(new_name(name, span).text, "symbol") for name, span in _placed(names))
 
 
 def names(*names: str) -> Any:
     """What an imported file declares, types apart: ``bed, water = names("bed", "water")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name in names)
+    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name, span in _placed(names))
 
 
 def types(*names: str) -> Any:
     """The types that an imported file declares: ``row, soil = types("row", "soil")``; of one name itself."""
-    span = caller()
-    return _one_or_all(TypeHandle(new_name(name, span, used=True).text) for name in names)
+    return _one_or_all(TypeHandle(new_name(name, span, used=True).text) for name, span in _placed(names))
+
+
+def _placed(names: Sequence[str]) -> Iterator[tuple[str, Span]]:
+    return zip(names, each_argument(caller(), len(names)), strict=True)
 
 
 def _one_or_all(things: Iterable[object]) -> object:
@@ -197,16 +206,16 @@ def _one_or_all(things: Iterable[object]) -> object:
 
 def joined(parts: tuple[object, ...], span: Span) -> TypeForm:
     """The union of some types, with ``None`` among them the optional type of the others."""
-    pieces: list[tree.Type] = []
-    for part in parts:
-        if part is not None:
-            node = type_node(part, span)
-            pieces += node.pieces if isinstance(node, tree.UnionType) else [node]
-    return TypeForm(join_nodes(pieces, None in parts, span))
+    pieces = [type_node(part, span) for part in parts if part is not None]
+    return TypeForm(join_nodes(pieces, len(pieces) < len(parts), span))
 
 
-def join_nodes(pieces: list[tree.Type], nothing: bool, span: Span) -> tree.Type:
-    """The tree of a union, or of the optional type of one. Raises ``Refused`` where a piece cannot be one."""
+def join_nodes(parts: list[tree.Type], nothing: bool, span: Span) -> tree.Type:
+    """The tree of a union, or of the optional type of one. Raises ``Refused`` where a part cannot be one."""
+    pieces = [piece for part in parts for piece in (part.pieces if isinstance(part, tree.UnionType) else (part,))]
+    if not pieces:
+        help_ = 'write `station | None` or `station | enum("table")`'
+        raise meaningless("there is no type to be joined", span, help_)
     inner: list[tree.TypeName | tree.IntervalType | tree.EnumType] = []
     for piece in pieces:
         if isinstance(piece, tree.OptionalType) and (len(pieces) > 1 or nothing):
@@ -231,24 +240,32 @@ def type_node(value: object, span: Span) -> tree.Type:
             return node
         case str():
             return tree.TypeName(new_name(value, span), span=span)
-        case UnionType():
-            return joined(tuple(None if arg is type(None) else arg for arg in typing.get_args(value)), span).node
         case range(start=start, stop=stop, step=1):
             return tree.IntervalType(expr(start, span), expr(stop - 1, span), span=span)
-    help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
-    if isinstance(value, (list, tuple, set, frozenset)):
-        help_ = "write `enum(…)` around its elements, `enum(*names)` for all that a list has"
-    if isinstance(value, Term):
-        raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
-    if isinstance(value, type) and value in BUILT_IN:
+    if is_built_in(value):
         return tree.TypeName(tree.Ident(BUILT_IN[value], span=span), span=span)
-    if value is type(None):
-        raise meaningless("`None` alone is no type", span, "write `t | None` for a type and the value `None`")
     origin, args = typing.get_origin(value), typing.get_args(value)
-    if origin is typing.Union:
+    if origin in (typing.Union, UnionType):
         return joined(tuple(None if arg is type(None) else arg for arg in args), span).node
     if origin in (set, list) and len(args) == 1:
         return tree.CollectionType("set" if origin is set else "list", type_node(args[0], span), span=span)
-    if value in (set, list):
-        raise meaningless("a set or a list needs the type of its elements", span, "write `set[station]`")
-    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no type of the language", span, help_)
+    raise _no_type(value, span)
+
+
+def is_built_in(value: object) -> bool:
+    """Whether a value is a class of Python that is also a type of the language."""
+    return any(value is each for each in BUILT_IN)
+
+
+def _no_type(value: object, span: Span) -> Refused:
+    if value is type(None):
+        return meaningless("`None` alone is no type", span, "write `t | None` for a type and the value `None`")
+    if value is set or value is list:
+        return meaningless("a set or a list needs the type of its elements", span, "write `set[station]`")
+    help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
+    if isinstance(value, Term):
+        return refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
+    if isinstance(value, (list, tuple, set, frozenset)):
+        help_ = "write `enum(…)` around its elements, `enum(*names)` for all that a list has"
+    what = described(value) if typing.get_origin(value) is None else f"`{value}`"
+    return refused(Code.PYTHON_VALUE, f"{what} is no type of the language", span, help_)

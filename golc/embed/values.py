@@ -42,7 +42,7 @@ def expr(value: object, span: Span) -> tree.Expr:
         case Meaningful():
             return value._tree_at(span)
         case bool():
-            if wrong := asked.answered(span, _is_unsettled):
+            if wrong := asked.answered(span, is_unsettled):
                 raise wrong
             return tree.Truth(value, span=span)
         case int():
@@ -63,7 +63,8 @@ def expr(value: object, span: Span) -> tree.Expr:
     raise refused(Code.PYTHON_VALUE, f"{described(value)} means nothing in a theory", span, _instead(value))
 
 
-def _is_unsettled(value: object) -> bool:
+def is_unsettled(value: object) -> bool:
+    """Whether a Python value is a term that has a value only in a situation."""
     return isinstance(value, Meaningful) and value._is_unsettled()
 
 

@@ -12,13 +12,14 @@ from lark import UnexpectedInput
 
 from golc.diagnostics import Code, Diagnostic, Fix, Source, Span
 from golc.edits import applied, moved
-from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, quantifiers, signs, steps
+from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, lines, quantifiers, signs, steps
 from golc.syntax.failure import Failure, Hint, failure
 from golc.syntax.layout import LayoutError
 from golc.syntax.parser import parser
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
+    *lines.HINTS,
     quantifiers.missing_dot,
     *clauses.HINTS,
     *steps.HINTS,
@@ -26,6 +27,7 @@ HINTS: tuple[Hint, ...] = (
     *blocks.BRACKETS,
     foreign.braces,
     *blocks.LINES,
+    lines.second_on_line,
     *foreign.CHARACTERS,
     quantifiers.missing_quantifier,
     *choices.HINTS,

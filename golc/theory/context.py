@@ -173,12 +173,13 @@ class Context:
         self.findings.add(finding)
         self.blame.accuse(finding, suspects)
 
-    def misspelt(self, code: Code, name: Span, similar: Suggestion) -> None:
+    def misspelt(self, code: Code, name: tree.Ident, similar: Suggestion) -> None:
         """A name that is declared nowhere, but one like it is."""
         kind = "type" if code is Code.UNKNOWN_TYPE else similar.kind
         suspects = [Suspect(Matter.NAME, label.span) for label in similar.labels if self._is_spare(similar.name)]
         message = f"unknown {kind} `{name.text}`"
-        self.error(code, message, name, "not declared", similar.help, similar.labels, suspects)
+        help_ = similar.help(name.span)
+        self.error(code, message, name.span, "not declared", help_, similar.labels, suspects)
 
     def _is_spare(self, name: str) -> bool:
         """Whether a name stands nowhere but in its declaration."""
@@ -210,7 +211,9 @@ class Context:
         faulty = [Suspect(matter, entry.span) for entry in wrong for matter in _untyped(entry.node)]
         faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE, Code.PYTHON))]
         faulty += [Suspect(Matter.NAME, entry.span) for entry in self._wrong((Code.PYTHON,))]
-        self.findings.diagnostics[:] = self.blame.settle(self.findings.diagnostics, faulty)
+        spaces = (self.names.values, self.names.doings)
+        names = {entry.span: entry.name for space in spaces for entry in space.entries.values()}
+        self.findings.diagnostics[:] = self.blame.settle(self.findings.diagnostics, faulty, names)
 
     def _merge_missing(self) -> None:
         """Sort the uses of each missing name. A use that is like some other name is one of them all the same; and

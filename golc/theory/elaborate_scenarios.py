@@ -95,7 +95,8 @@ class _Scenario:
         if entry is not None and entry.kind is Kind.PROCEDURE and not entry.arity:
             return GroundCall("control", (), span=self.node.name.span)
         message = f"scenario `{self.node.name.text}` does not say what it runs, and there is no procedure `control`"
-        self.context.error(Code.MISPLACED_CLAUSE, message, self.node.name.span, help="add a line `run …`")
+        help_ = f"add a line `{self.node.name.span.either('run …', 'run(…)')}`"
+        self.context.error(Code.MISPLACED_CLAUSE, message, self.node.name.span, help=help_)
         return None
 
     def item(self, item: tree.ScenarioItem) -> None:

@@ -15,7 +15,6 @@ from golc.theory.fitting import (
     NOTHING,
     Either,
     collection,
-    describe,
     includes,
     join,
     may_be,
@@ -23,6 +22,7 @@ from golc.theory.fitting import (
     size,
     strip_optional,
 )
+from golc.theory.forms import describe, word
 from golc.theory.terms import Display, Literal, Membership, Operation, Operator, Term
 from golc.theory.types import BOOL, INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value, show
 
@@ -92,7 +92,7 @@ def _values(found: Term, constant: Term) -> str | None:
     type_ = strip_optional(found.type)
     if isinstance(found, Literal) or not isinstance(constant, Literal) or not isinstance(type_, Enumeration):
         return None
-    values = [show(value) for value in type_.values[:6]]
+    values = [word(show(value), found.span) for value in type_.values[:6]]
     return f"`{shown(found)}` can be {', '.join(values)}{', …' if len(type_.values) > 6 else ''}"
 
 
@@ -140,14 +140,14 @@ def within_type(context: Context, element: Term, within: Type, span: Span) -> Te
     if within is BROKEN or element.type is BROKEN:
         return broken(span)
     if _kinds(element).isdisjoint(within.kinds):
-        message = f"{typed(element)} can never be in {describe(within)}"
+        message = f"{typed(element)} can never be in {describe(within, span)}"
         context.error(Code.TYPE_MISMATCH, message, span, "always false", suspects=suspects(context, element))
         return broken(span)
     context.clear(suspects(context, element))
     if not may_be(element.type, within):
         name = shown(element)
         help_ = f"write `{within.low} <= {name} and {name} <= {within.high}`" if isinstance(within, Interval) else None
-        message = f"`{name}` is of type {describe(element.type)}, and {describe(within)} has only integers"
+        message = f"`{name}` is of type {describe(element.type, span)}, and {describe(within, span)} has only integers"
         context.error(Code.TYPE_MISMATCH, message, span, "whole or not?", help_)
         return broken(span)
     return Membership(element, within, type=BOOL, span=span)
@@ -163,7 +163,7 @@ def within_collection(context: Context, element: Term, within: Term, span: Span)
         return broken(span)
     never = _kinds(element).isdisjoint(whole.element.kinds) or not overlap(element.type, whole.element)
     if never and whole.element != NOTHING:
-        message = f"{typed(element)} can never be in `{shown(within)}`, which is of type {describe(whole)}"
+        message = f"{typed(element)} can never be in `{shown(within)}`, which is of type {describe(whole, span)}"
         context.error(Code.TYPE_MISMATCH, message, span, "always false", cure(element, whole.element))
         return broken(span)
     return Operation(Operator.ELEMENT, (element, within), type=BOOL, span=span)
@@ -175,7 +175,8 @@ def one_of(context: Context, element: Term, choices: list[Term], span: Span, pla
         return broken(span)
     strange = [choice for choice in choices if not _comparable(element, choice)]
     for choice in strange:
-        mismatch(context, choice, describe(element.type), f"a value of `{shown(element)}`", cure(choice, element.type))
+        needed = describe(element.type, choice.span)
+        mismatch(context, choice, needed, f"a value of `{shown(element)}`", cure(choice, element.type))
     if strange:
         return broken(span)
     pairs = [_member(choice) for choice in choices]

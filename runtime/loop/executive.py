@@ -92,7 +92,8 @@ class Executive(Intake):
     def run(self) -> Outcome:
         """Execute the program to its end; the devices are told to stop whatever happens. An executive runs once.
 
-        Raises ``ProgramError`` if the program fails and ``DeviceError`` if the world does.
+        Raises ``ProgramError`` if the program fails, ``UserError`` if no device does an action that it has come to, and
+        ``DeviceError`` if the world fails.
         """
         opened: list[Device] = []
         try:
@@ -326,9 +327,10 @@ class Executive(Intake):
             return None
         own, events = 0, []
         for item in reversed(self.history):
-            own += isinstance(item, Act)
-            if own > branch.actions:
-                break
             if not isinstance(item, Act):
                 events.append(self.dynamics.call(item.action, item.args))
+                continue
+            own += 1
+            if own >= branch.actions:  # the first action of the plan, or the last one before it
+                break
         return f"exogenous actions since the plan was made: {', '.join(reversed(events))}" if events else None

@@ -10,26 +10,37 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from textwrap import indent
+from typing import TypeAlias
 
 import pytest
 
 from golc.cli import invoke
 from golc.codes.pages import EXAMPLE, Example, page
 from golc.diagnostics import Code, Findings, Source
+from golc.embed.printing import python_text
 from golc.syntax.format import formatted
+from golc.syntax.parse import parse_file
+from tests.notation import no_python
+
+GOLC_ONLY = {
+    **dict.fromkeys([f"GL00{number}" for number in range(2, 10)], "it is about the text of a `.gl` file"),
+    "GL032": "comments are not converted",
+    "GL110": "it is about an events file",
+}
+"""The codes whose wrong example has no Python form, or another finding there, and why."""
 
 FOUND = re.compile(r"^(?:error|warning|note)\[(GL\d{3})\]", re.MULTILINE)
+Said: TypeAlias = Callable[[Example, Path], str]
+
 QUICK = ("check", "plan", "test", "gen-nqc")
 """Commands without threads and signals, which are called in this process."""
 
 
 @pytest.fixture
-def found(
-    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> Iterator[Callable[[Example, Path], list[str]]]:
-    """The codes that the command of an example finds in its files, which are written into a folder."""
+def said(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Iterator[Said]:
+    """What the command of an example says of its files, which are written into a folder."""
 
-    def find(example: Example, folder: Path) -> list[str]:
+    def say(example: Example, folder: Path) -> str:
         folder.mkdir()
         for name, text in example.files.items():
             path = folder / name
@@ -44,10 +55,10 @@ def found(
             code = subprocess.run(command, stdin=subprocess.DEVNULL, timeout=120, check=False).returncode
         said = "".join(capfd.readouterr())
         assert code in (0, 1, 5), said
-        return FOUND.findall(said)
+        return said
 
     before = sys.getrecursionlimit()
-    yield find
+    yield say
     sys.setrecursionlimit(before)  # the command line raises it
 
 
@@ -56,14 +67,32 @@ def needs_nqc(example: Example) -> bool:
 
 
 @pytest.mark.parametrize("code", Code, ids=lambda code: code.code)
-def test_the_examples_are_what_they_are_for(
-    code: Code, tmp_path: Path, found: Callable[[Example, Path], list[str]]
-) -> None:
+def test_the_examples_are_what_they_are_for(code: Code, tmp_path: Path, said: Said) -> None:
     wrong, right = page(code).wrong, page(code).right
     if shutil.which("nqc") is None and (needs_nqc(wrong) or needs_nqc(right)):
         pytest.skip("nqc is missing")
-    assert found(wrong, tmp_path / "wrong") == [code.code]
-    assert found(right, tmp_path / "right") == []
+    assert FOUND.findall(said(wrong, tmp_path / "wrong")) == [code.code]
+    assert FOUND.findall(said(right, tmp_path / "right")) == []
+
+
+@pytest.mark.parametrize("code", [code for code in Code if code.code not in GOLC_ONLY], ids=lambda code: code.code)
+def test_a_finding_about_python_is_told_in_python(code: Code, tmp_path: Path, said: Said) -> None:
+    wrong = page(code).wrong
+    if shutil.which("nqc") is None and needs_nqc(wrong):
+        pytest.skip("nqc is missing")
+    rendered = said(in_python(wrong), tmp_path / "wrong")
+    assert (FOUND.findall(rendered), no_python(rendered)) == ([code.code], [])
+
+
+def in_python(example: Example) -> Example:
+    """The same with the theory in Python."""
+    text = example.files.get(EXAMPLE)
+    if text is None:
+        return example
+    tree = parse_file(Source(EXAMPLE, text), findings := Findings())
+    assert tree is not None and not findings.has_errors
+    files = {name: text for name, text in example.files.items() if name != EXAMPLE}
+    return Example({**files, "example.py": python_text(tree)}, example.command.replace(EXAMPLE, "example.py"))
 
 
 @pytest.mark.parametrize("code", Code, ids=lambda code: code.code)

@@ -86,6 +86,15 @@ def test_types_are_objects(text_of: Callable[[str], str], python: str, text: str
     assert f"type t = {text}\n" in text_of(f'{HEAD}\ntheory.type("t", {python})\n')
 
 
+def test_unions_of_unions_are_one_in_annotations(text_of: Callable[[str], str]) -> None:
+    text = text_of(
+        f"from __future__ import annotations\n{HEAD}\n@theory.fluent\n"
+        "def f(a: union(phase | enum('idle'), floor), b: optional(union('phase', floor)), c: union(phase, None)): ...\n"
+    )
+
+    assert text.endswith("fluent f(a: phase + {idle} + floor, b: phase + floor?, c: phase?)\n")
+
+
 def test_a_symbol_may_have_any_name(text_of: Callable[[str], str]) -> None:
     text = text_of(
         f"{HEAD}\nkind = theory.type('kind', enum('name', 'value', 'node', 'symbols'))\n"
@@ -142,11 +151,19 @@ def test_a_symbol_may_have_any_name(text_of: Callable[[str], str]) -> None:
         ('theory.goal("g", lit({}))', (22, 2), "GL144", "a dictionary means nothing", "table"),
         ('theory.goal("g", lit(g=1))', (18, 8), "GL015", "no parameter `g`", "`f`"),
         ('theory.goal("g", at == float("nan"))', (24, 12), "GL144", "nan is no number", None),
-        ('theory.goal("some", lit(1))', (1, 27), "GL006", "word of the language", "the_some"),
-        ('theory.goal("1st", lit(1))', (1, 26), "GL143", "cannot be a name", "begin it with a letter"),
-        ('theory.type("t", {"a", "b"})', (1, 28), "GL144", "no type of the language", "`enum(…)`"),
+        ('theory.goal("some", lit(1))', (13, 6), "GL006", "word of the language", "the_some"),
+        ('theory.goal("1st", lit(1))', (13, 5), "GL143", "cannot be a name", "begin it with a letter"),
+        ('theory.type("t", {"a", "b"})', (18, 10), "GL144", "no type of the language", "`enum(…)`"),
+        ('theory.type("t", union())', (18, 7), "GL143", "no type to be joined", "`station | None`"),
+        ('theory.type("t", optional(None))', (18, 14), "GL143", "no type to be joined", "`station | None`"),
         ('theory.type("t", location)', (18, 8), "GL141", "NameError: name 'location' is not defined", None),
-        ('theory.type("t", list)', (1, 22), "GL143", "needs the type of its elements", "set[station]"),
+        ('theory.type("t", enum("a", "b c"))', (28, 5), "GL143", "cannot be a name", "`b_c`"),
+        ('theory.type("t", interval(1, 2.5 + 3j))', (30, 8), "GL144", "type `complex` means nothing", None),
+        ('symbols("a", "b c")', (14, 5), "GL143", "cannot be a name", "`b_c`"),
+        ('theory.fluent("f", 3, 1)', (20, 1), "GL144", "no type of the language", None),
+        ('theory.fluent("f", initial=1, parameters={"n": 3})', (42, 8), "GL144", "no type of the language", None),
+        ('Theory("my lift")', (8, 9), "GL143", "cannot be a name", "`my_lift`"),
+        ('theory.type("t", list)', (18, 4), "GL143", "needs the type of its elements", "set[station]"),
         ('theory.const("c")', (1, 17), "GL143", "a value is missing", None),
         ("test(at == 1)", (1, 13), "GL143", "`test` is not run by Python", "`@theory.proc`"),
         ("values(floor)", (1, 13), "GL143", "`values` is not run by Python", "translated function"),

@@ -46,7 +46,7 @@ def ride(n: floor):
     [
         ("theory.goal('g', height == 3)\n", "height", "at"),
         ("theory.goal('g', exists(step, lambda n: at == n))\n", "exists(step, lambda n: at == n)", "step"),
-        ("theory.fluent('f', step, 1)\n", "theory.fluent('f', step, 1)", "step"),
+        ("theory.fluent('f', step, 1)\n", "step", "step"),
         ("theory.fluent('f', place, hall)\n", "hall", "hall"),
         ("theory.fluent('f', place, room.hall)\n", "room.hall", "hall"),
         ("theory.static('s', int, {attic: 1}, parameters={'r': place})\n", "{attic: 1}", "attic"),

@@ -6,12 +6,11 @@ from collections.abc import Callable
 
 import pytest
 
-from golc.diagnostics import Findings, ProgramError, Source
+from golc.diagnostics import ProgramError
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
+from tests.theories import theory_of
 
 DOMAIN = """domain d
 type t = 1..3
@@ -42,12 +41,26 @@ ERRORS = [
 ]
 
 
-def theory_of(text: str) -> BasicActionTheory:
-    findings, source = Findings(), Source("d.gl", text)
-    file = parse_file(source, findings)
-    theory = elaborate(file, source, findings) if file else None
-    assert theory is not None, findings.diagnostics
-    return theory
+def test_a_number_has_100_000_bits_at_most() -> None:
+    text = "fluent two: int = 2\naction put(n: int):\n    causes x := n\naction twice:\n    causes x := x * two\n"
+    dynamics = Dynamics(theory_of(DOMAIN + text))
+    state = dynamics.progress(dynamics.initial(), "put", (2**99_998,))
+    largest = dynamics.progress(state, "twice", ())
+
+    assert dynamics.value(largest, "x") == 2**99_999
+    with pytest.raises(ProgramError, match="goes up to 100,000 bits"):
+        dynamics.progress(largest, "twice", ())
+
+
+def test_a_list_has_only_so_many_elements(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("golc.situation.guards.MOST_ELEMENTS", 3)
+    text = "fluent l: list[int] = [7, 8]\naction put(n: int):\n    causes l := l + [n]\n"
+    dynamics = Dynamics(theory_of(DOMAIN + text))
+    full = dynamics.progress(dynamics.initial(), "put", (9,))
+
+    assert dynamics.value(full, "l") == (7, 8, 9)
+    with pytest.raises(ProgramError, match="goes up to 3 elements"):
+        dynamics.progress(full, "put", (9,))
 
 
 @pytest.mark.parametrize(("effect", "code", "place", "message"), ERRORS, ids=[error[0] for error in ERRORS])

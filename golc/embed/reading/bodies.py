@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
-from golc.diagnostics import Diagnostic, Span, counted
-from golc.embed import words
+from golc.diagnostics import Diagnostic, Span
 from golc.embed.errors import Refused, meaningless
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.expressions import Expressions
 from golc.embed.reading.refusals import STATEMENTS
 from golc.embed.values import elements
-from golc.syntax import tree
 
 T = TypeVar("T")
 
@@ -35,10 +34,10 @@ class Bodies(Expressions):
                 raise meaningless(f"`{self.function.node.name}` returns nothing", self.function.name_span, help_)
         for node, after in pairwise(body):
             if isinstance(node, ast.Return):
-                raise meaningless("what follows a `return` is never reached", self._head(after))
+                raise meaningless("what follows a `return` is never reached", self.head(after))
         first = next(node for node in body if not isinstance(node, ast.Return))
         help_ = "write one `return` with the whole term; give parts of it names with `@theory.define`"
-        raise meaningless("the body of this function is one `return`", self._head(first), help_)
+        raise meaningless("the body of this function is one `return`", self.head(first), help_)
 
     def each(self, nodes: Iterable[ast.stmt], translate: Callable[[ast.stmt], Iterable[T]]) -> tuple[T, ...]:
         """What every statement becomes. Raises ``Refused`` with all findings at the end."""
@@ -66,14 +65,20 @@ class Bodies(Expressions):
         # The order of a set changes from run to run.
         ordered = sorted(values, key=repr) if isinstance(values, (set, frozenset)) else values
         for value in elements(ordered, self.span(node.iter)):
-            fixed, bound = dict(self.function.fixed), set(self.bound)
-            try:
-                self._assign(node.target, value)
+            with self._round(node.target, value):
                 yield from self.each(node.body, translate)
-            finally:
-                self.function.fixed.clear()
-                self.function.fixed.update(fixed)
-                self.bound |= bound
+
+    @contextlib.contextmanager
+    def _round(self, target: ast.expr, value: object) -> Iterator[None]:
+        """One round of a loop of Python: while it lasts its variables are constants, and hide what has their names."""
+        fixed, bound = dict(self.function.fixed), set(self.bound)
+        try:
+            self._assign(target, value)
+            yield
+        finally:
+            self.function.fixed.clear()
+            self.function.fixed.update(fixed)
+            self.bound |= bound
 
     def listed(self, node: ast.expr) -> object:
         """What a loop of Python goes through: a value of Python, or a list that is written out."""
@@ -96,35 +101,6 @@ class Bodies(Expressions):
             case _:
                 raise meaningless("the values do not fit these names", self.span(target))
 
-    def call_of(self, node: ast.expr, *expected: words.Word) -> words.Word | None:
-        """The word that a call calls, if it is one of those expected."""
-        if not isinstance(node, ast.Call):
-            return None
-        called = self.python(node.func)
-        return called if isinstance(called, words.Word) and called in expected else None
-
-    def targets(self, node: ast.expr, ranges: Sequence[ast.expr]) -> list[ast.Name]:
-        """The variables of a ``for``, one for each range."""
-        parts = node.elts if isinstance(node, (ast.Tuple, ast.List)) else [node]
-        names = [part for part in parts if isinstance(part, ast.Name)]
-        if len(names) != len(parts) or len(names) != len(ranges):
-            message = f"{counted(len(parts), 'variable')} for {counted(len(ranges), 'type')}"
-            raise meaningless(message, self.span(node), "write as many names as types: `for x, y in pick(t, u)`")
-        return names
-
-    def binders(self, target: ast.expr, ranges: Sequence[ast.expr]) -> tuple[tree.Binder, ...]:
-        """The variables of a ``for`` with what they range over; a range may use the variables before it."""
-        names = self.targets(target, ranges)
-        made = []
-        new = []
-        for name, over in zip(names, ranges, strict=True):
-            made.append(self.binder(name, over))
-            if name.id not in self.bound:
-                self.bound.add(name.id)
-                new.append(name.id)
-        self.bound.difference_update(new)
-        return tuple(made)
-
     def no_else(self, node: ast.For | ast.While) -> None:
         """A loop of the language has no ``else``."""
         if node.orelse:
@@ -135,9 +111,9 @@ class Bodies(Expressions):
     def refuse(self, node: ast.stmt) -> Refused:
         """What to say of a statement that has no meaning where it stands."""
         message, help_ = STATEMENTS.get(type(node), ("this has no meaning here", None))
-        return meaningless(message, self._head(node), help_)
+        return meaningless(message, self.head(node), help_)
 
-    def _head(self, node: ast.stmt) -> Span:
+    def head(self, node: ast.stmt) -> Span:
         """The first line of a statement."""
         span = self.span(node)
         line = span.text.partition("\n")[0].rstrip()

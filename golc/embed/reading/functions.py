@@ -120,7 +120,7 @@ class Function:
             Code.PYTHON_CHANGED,
             f"`{name.id}` was {_shown(then)} when the function was declared and is {_shown(now)} now",
             self.place(name),
-            f"give it to the function as a default: `def {self.node.name}(…, {name.id}={name.id})`",
+            f"give it to the function as a default: `def {self.node.name}(…, {name.id}={name.id}):`",
             (Label(self.name_span, "the function is translated when the theory is complete"),),
         )
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Callable, Iterable, Mapping
+from types import FunctionType
 from typing import Any
 
 from golc.embed import words
@@ -30,8 +31,11 @@ class Lines(Bodies):
             called = self.python(node.value.func)
             if isinstance(called, words.Word) and called.name in allowed.split():
                 return node.value, called
+            if isinstance(called, FunctionType):
+                help_ = f"write the lines of `{called.__name__}` here"
+                raise meaningless("a function of Python does nothing in a declaration", self.head(node), help_)
         help_ = "write " + ", ".join(f"`{name}(…)`" for name in allowed.split())
-        raise meaningless("this line has no meaning here", self._head(node), (meant or {}).get(type(node), help_))
+        raise meaningless("this line has no meaning here", self.head(node), (meant or {}).get(type(node), help_))
 
     def constant(self, node: ast.expr) -> Any:
         """A constant argument: an integer, a truth value, ``None``, a symbol."""

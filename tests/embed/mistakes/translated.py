@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from golc.embed import Theory, after, bind, branch, causes, cost, each, enum, expect, given, interval, on, poss, run
 from golc.embed import choose, count, guard, interrupts, known, let, one_of, otherwise, pick, say, search, senses
-from golc.embed import setting, star, test, together, unknown, until, var, wait, within
+from golc.embed import optional, setting, star, test, together, union, unknown, until, var, wait, within
 
 theory = Theory("mistakes")
 station = theory.type("station", interval(1, 6))
@@ -12,6 +12,8 @@ moving, stopped = phase
 location = theory.fluent("location", station, 3)
 motion = theory.fluent("motion", phase, stopped)
 TABLE = {1: 2}
+LENGTHS = [2, 3]
+FLUENTS = [location, motion]
 
 
 @theory.fluent
@@ -25,6 +27,10 @@ def twice(term):
 
 def fails(term):
     return term.nothing
+
+
+def moves():
+    go(1)
 
 
 @theory.define
@@ -123,6 +129,48 @@ def max_():
 #! 5+4 GL006 `max` is a word of the language and cannot be a name
 #! help: choose another name, for example `the_max`
     return True
+
+
+@theory.define
+def d_list(n: station):
+    return LENGTHS[n] == 3 and TABLE[1] == LENGTHS[0]
+#! 12+10 GL143 Python looks a term up at once, before there is a situation
+#! help: make it a static, whose value is a table: `start = theory.static(…)`
+
+
+@theory.define
+def d_handles():
+    return any(FLUENTS[n] for n in range(2))
+#! 16+10 GL143 Python looks a term up at once, before there is a situation
+#! help: go through the list itself, `for x in …`, or declare one fluent with a parameter for all of it
+
+
+@theory.define
+def d_enum(n: enum()):
+#! 15+6 GL143 an enumeration has at least one element
+#! help: write `enum("red", "green")`
+    return True
+
+
+@theory.define
+def d_method():
+    return location.bit_length() == 2
+#! 12+19 GL143 a term has no method `bit_length`
+#! help: terms have `in`, `+`, `-`, `len(x)`, `first(x)`, `rest(x)`, `x[i]` and comprehensions
+
+
+@theory.define
+def d_sorted():
+    return sorted(location) == [1]
+#! 12+16 GL143 Python cannot go through a term, whose value depends on the situation
+#! help: a loop or comprehension in a translated function goes through it: `for x in …`
+
+
+@theory.extern(file="helpers.py")
+def e_body(n: station) -> int:
+    return 2 * n
+#! 5+12 GL143 an extern has no body: the function stands in `helpers.py`
+#! help: write `...` here; what is to be translated is a static
 
 
 @theory.define
@@ -482,6 +530,9 @@ def go(n: station):
     causes(location + 1, n)
 #! 12+12 GL143 this is no action, procedure or fluent
 #! help: write the name of an action or a fluent, with its arguments
+    location.append(n)
+#! 5+15 GL143 a term has no method `append`
+#! help: write `causes(location, location + …)`, or `-` to take away
     causes(location, unknown)
     causes(location, one_of(1, 2))
 #! 22+12 GL015 `one_of` takes 1 argument by place, not 2
@@ -515,6 +566,9 @@ def go(n: station):
 #! 5+14 GL143 this line has no meaning here
 #! help: write `for n in station:` with `causes(…)` in it
         causes(free(n), True)
+    moves()
+#! 5+7 GL143 a function of Python does nothing in a declaration
+#! help: write the lines of `moves` here
     test(free(n))
 #! 5+13 GL143 this line has no meaning here
 #! help: write `poss(…)`, `causes(…)`, `senses(…)`, `cost(…)`
@@ -534,6 +588,30 @@ def control(n: station):
     go
 #! 5+2 GL143 this does nothing
 #! help: write `go()`
+    poss(free(n))
+#! 5+13 GL143 this does nothing
+#! help: write `test(φ)` to wait for what holds, and `poss` in an action
+    known(location)
+#! 5+15 GL143 this does nothing
+#! help: write `test(φ)` to wait for what holds
+    with pick(station) as k:
+#! 27+1 GL143 `pick` gives nothing a name
+#! help: write `for x in pick(station):`
+        go(k)
+    with pick(station):
+#! 10+13 GL143 `pick` stands in the wrong place
+#! help: write `for x in pick(station):`
+        go(n)
+    wait(location == 3)
+#! 5+19 GL015 `wait` takes no arguments by place, not 1
+#! help: it takes `until=`, `seconds=`
+    with choose():
+        for k in [1, location]:
+            with branch():
+                go(k)
+    moves()
+#! 5+7 GL143 a function of Python does nothing in a program
+#! help: put `@theory.proc` above `def moves`, or write its lines here
     go(n)()
 #! 5+5 GL143 this cannot be called
     location == 3
@@ -599,6 +677,7 @@ def control(n: station):
         go(n)
     with star() as s:
 #! 20+1 GL143 `star` gives nothing a name
+#! help: `with let(e) as x:` does
         go(n)
     with let(3):
 #! 10+6 GL143 `let` gives one name
@@ -652,6 +731,7 @@ def control(n: station):
         go(m)
     wait(3)
 #! 5+7 GL015 `wait` takes no arguments by place, not 1
+#! help: it takes `until=`, `seconds=`
     wait(until=free(n), seconds=3)
 #! 5+30 GL143 a `wait` is for a condition or for a time
 #! help: write `with within(seconds):` around it
@@ -763,6 +843,7 @@ def brick():
 #! help: assign it, declare it with the theory, or import it from `golc.embed`
     setting("poll", 3, seconds=4)
 #! 5+29 GL015 `setting` takes 1 argument by place, not 2
+#! help: it takes `seconds=`
     go(3)
 #! 5+5 GL143 this line has no meaning here
 #! help: write `bind(…)`, `setting(…)`
@@ -794,3 +875,25 @@ def g_each(n: station):
 #! 12+10 GL143 `n` is a parameter, and no goal has any
 #! help: write `… for n in station` in it; with a default it is a constant of Python
     return free(n)
+
+
+@theory.fluent
+def no_alternatives(n: union()):
+#! 24+7 GL143 there is no type to be joined
+#! help: write `station | None` or `station | enum("table")`
+    return True
+
+
+@theory.fluent
+def two_bases(n: optional(station, phase)):
+#! 18+24 GL015 `optional` takes 1 argument by place, not 2
+    return True
+
+
+AT_THREE = location == 3
+
+
+@theory.define
+def called_formula():
+    return AT_THREE()
+#! 12+8 GL143 this cannot be called
