@@ -102,6 +102,8 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     help_ = cure(found, REAL)
     if found.type == STRING and what == "`+`":
         help_ = f'`{found.span.either("", "f")}"{{…}}{{…}}"` puts texts together'
+    elif found.type == BOOL and what == "`sum`" and found.span.source.python:
+        help_ = f"write `count({shown(found)} for …)` for how often it is true"
     elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES and not found.span.source.python:
         help_ = _parentheses(what.strip("`"))
     mismatch(context, found, "a number", what, help_)
@@ -133,6 +135,10 @@ def cure(found: Term, needed: Type) -> str | None:
         return f"the type `{type_text(Optional(needed), place)}` has the value `{word('none', place)}`, too"
     if needed == BOOL and isinstance(found, Quantified) and not place.source.python:
         return _parentheses(found.kind)
+    if needed == BOOL and have:
+        empty = "[]" if have.kind == "list" else place.either("{}", "set()")
+        text = shown(found)
+        return f"compare it: `{text} != {empty}`; ask: `x in {text}`; `+` joins it with another"
     if needed == BOOL:
         return f"compare it: `{shown(found)} {place.either('=', '==')} …`"
     if have and want and have.kind != want.kind and not have.element.kinds:

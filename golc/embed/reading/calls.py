@@ -94,6 +94,9 @@ class Calls(Binders):
             return meaningless(f"`{name}` needs `… for n in station` here", span, f"write `{name}(… for n in station)`")
         if isinstance(name, str):
             return meaningless(f"`{name}` has no meaning in a theory", span)
+        if isinstance(node.func, ast.Attribute):
+            help_ = "terms have `in`, `+`, `-`, `len(x)`, `first(x)`, `rest(x)`, `x[i]` and comprehensions"
+            return meaningless(f"a term has no method `{node.func.attr}`", span, help_)
         return meaningless("this cannot be called", span)
 
     def _apply(self, node: ast.Call, called: Named, span: Span) -> tree.Apply:

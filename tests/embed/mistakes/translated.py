@@ -153,6 +153,27 @@ def d_enum(n: enum()):
 
 
 @theory.define
+def d_method():
+    return location.bit_length() == 2
+#! 12+19 GL143 a term has no method `bit_length`
+#! help: terms have `in`, `+`, `-`, `len(x)`, `first(x)`, `rest(x)`, `x[i]` and comprehensions
+
+
+@theory.define
+def d_sorted():
+    return sorted(location) == [1]
+#! 12+16 GL143 Python cannot go through a term, whose value depends on the situation
+#! help: a loop or comprehension in a translated function goes through it: `for x in …`
+
+
+@theory.extern(file="helpers.py")
+def e_body(n: station) -> int:
+    return 2 * n
+#! 5+12 GL143 an extern has no body: the function stands in `helpers.py`
+#! help: write `...` here; what is to be translated is a static
+
+
+@theory.define
 def d13():
     return (n for n in station)
 #! 12+20 GL143 a generator has no meaning here
@@ -509,6 +530,9 @@ def go(n: station):
     causes(location + 1, n)
 #! 12+12 GL143 this is no action, procedure or fluent
 #! help: write the name of an action or a fluent, with its arguments
+    location.append(n)
+#! 5+15 GL143 a term has no method `append`
+#! help: write `causes(location, location + …)`, or `-` to take away
     causes(location, unknown)
     causes(location, one_of(1, 2))
 #! 22+12 GL015 `one_of` takes 1 argument by place, not 2
@@ -564,6 +588,27 @@ def control(n: station):
     go
 #! 5+2 GL143 this does nothing
 #! help: write `go()`
+    poss(free(n))
+#! 5+13 GL143 this does nothing
+#! help: write `test(φ)` to wait for what holds, and `poss` in an action
+    known(location)
+#! 5+15 GL143 this does nothing
+#! help: write `test(φ)` to wait for what holds
+    with pick(station) as k:
+#! 27+1 GL143 `pick` gives nothing a name
+#! help: write `for x in pick(station):`
+        go(k)
+    with pick(station):
+#! 10+13 GL143 `pick` stands in the wrong place
+#! help: write `for x in pick(station):`
+        go(n)
+    wait(location == 3)
+#! 5+19 GL015 `wait` takes no arguments by place, not 1
+#! help: it takes `until=`, `seconds=`
+    with choose():
+        for k in [1, location]:
+            with branch():
+                go(k)
     moves()
 #! 5+7 GL143 a function of Python does nothing in a program
 #! help: put `@theory.proc` above `def moves`, or write its lines here
@@ -632,6 +677,7 @@ def control(n: station):
         go(n)
     with star() as s:
 #! 20+1 GL143 `star` gives nothing a name
+#! help: `with let(e) as x:` does
         go(n)
     with let(3):
 #! 10+6 GL143 `let` gives one name
@@ -685,6 +731,7 @@ def control(n: station):
         go(m)
     wait(3)
 #! 5+7 GL015 `wait` takes no arguments by place, not 1
+#! help: it takes `until=`, `seconds=`
     wait(until=free(n), seconds=3)
 #! 5+30 GL143 a `wait` is for a condition or for a time
 #! help: write `with within(seconds):` around it
@@ -796,6 +843,7 @@ def brick():
 #! help: assign it, declare it with the theory, or import it from `golc.embed`
     setting("poll", 3, seconds=4)
 #! 5+29 GL015 `setting` takes 1 argument by place, not 2
+#! help: it takes `seconds=`
     go(3)
 #! 5+5 GL143 this line has no meaning here
 #! help: write `bind(…)`, `setting(…)`
