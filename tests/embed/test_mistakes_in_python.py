@@ -5,7 +5,6 @@ Below a line stand its findings, ``#! column+width code message`` and ``#! help:
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
@@ -13,6 +12,7 @@ import pytest
 from golc.embed.modules import read_theory
 from golc.rendering import render
 from tests.notation import no_python
+from tests.remarks import remarks
 
 FILES = sorted(Path(__file__).with_name("mistakes").glob("*.py"))
 
@@ -28,14 +28,4 @@ def test_each_mistake_is_one_finding_and_hides_none(path: Path) -> None:
         if diagnostic.help is not None:
             said.append((span.line, f"help: {diagnostic.help}"))
 
-    assert sorted(said) == sorted(_expected(path.read_text(encoding="utf-8")))
-
-
-def _expected(text: str) -> list[tuple[int, str]]:
-    expected, line = [], 0
-    for number, content in enumerate(text.splitlines(), 1):
-        if note := re.match("#! (.*)", content):
-            expected.append((line, note.group(1)))
-        else:
-            line = number
-    return expected
+    assert sorted(said) == remarks(path.read_text(encoding="utf-8"))
