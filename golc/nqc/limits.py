@@ -54,9 +54,7 @@ def _check_variables(program: Program, user: NqcSource, target: Target, where: S
             Code.NQC_LIMIT,
             f"the program has {total} variables, but a brick has {VARIABLES}",
             where,
-            notes=(
-                f"the event loop has {loop}, events and arguments {len(own)}, the NQC files {len(user.variables)}",
-            ),
+            notes=(f"the event loop has {loop}, events and arguments {len(own)}, the NQC files {len(user.variables)}",),
             help="each exogenous action of the brick takes one for each combination of its arguments"
             if len(own) > len(user.variables)
             else "make variables local to a task or a function",
