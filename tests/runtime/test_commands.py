@@ -116,19 +116,20 @@ def test_what_happens_before_the_confirmation_is_decided_upon(start: Start, even
     assert run.story() == ["<flip", "b"]
 
 
-def test_the_history_in_memory_has_a_bound(start: Start) -> None:
+@pytest.mark.parametrize(("actions", "first"), [(1_000, "a"), (1_001, "… 1 before"), (3_000, "… 2000 before")])
+def test_the_history_in_memory_has_a_bound(start: Start, actions: int, first: str) -> None:
     run = start(program("while true:\n    a\n    if x = 3:\n        wait\n    else:\n        b"), perform=None)
     count = [0]
 
     def perform(action: str, args: Args) -> Args:
         count[0] += 1
-        if count[0] == 3_000:
+        if count[0] == actions:
             run.inbox.put(command("stop", []))
         return ()
 
     run.device._perform = perform
     run.executive.run()
 
-    assert run.executive.actions == 3_000
-    assert run.executive.told()[0] == "… 2000 before"
+    assert run.executive.actions == actions
+    assert run.executive.told()[0] == first
     assert len(run.executive.history) == 1_000
