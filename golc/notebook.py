@@ -55,7 +55,10 @@ def state_html(state: State) -> str:
 
 
 def plan_html(plan: Plan) -> str:
-    """A numbered list of steps; below a step that senses, what it may answer, each with the rest of the plan."""
+    """A numbered list of steps; below a step that senses, what it may answer, each with the rest of the plan.
+
+    The cost of a plan stands below, if it has one.
+    """
     if not plan.steps:
         return _div("<p>nothing is to be done</p>")
     parts: list[str] = []
@@ -76,7 +79,7 @@ def plan_html(plan: Plan) -> str:
             parts.append(" …")
         elif part.cases:
             stack += ["</ul>", *_cases(part, first + len(steps)), "<ul>"]
-    return _div("".join(parts))
+    return _div("".join(parts), "" if plan.cost is None else f"<p>cost {escape(show(plan.cost))}</p>")
 
 
 def _cases(part: Plan, after: int) -> Iterator[str | tuple[Plan, int]]:

@@ -16,10 +16,9 @@ import pytest
 
 from golc.cli import invoke
 from golc.codes.pages import EXAMPLE, Example, page
+from golc.codes.python import in_python
 from golc.diagnostics import Code, Findings, Source
-from golc.embed.printing import python_text
 from golc.syntax.format import formatted
-from golc.syntax.parse import parse_file
 from tests.notation import no_python
 
 GOLC_ONLY = {
@@ -77,22 +76,13 @@ def test_the_examples_are_what_they_are_for(code: Code, tmp_path: Path, said: Sa
 
 @pytest.mark.parametrize("code", [code for code in Code if code.code not in GOLC_ONLY], ids=lambda code: code.code)
 def test_a_finding_about_python_is_told_in_python(code: Code, tmp_path: Path, said: Said) -> None:
-    wrong = page(code).wrong
-    if shutil.which("nqc") is None and needs_nqc(wrong):
+    shown = in_python(page(code))
+    assert shown is not None
+    if shutil.which("nqc") is None and (needs_nqc(shown.wrong) or needs_nqc(shown.right)):
         pytest.skip("nqc is missing")
-    rendered = said(in_python(wrong), tmp_path / "wrong")
+    rendered = said(shown.wrong, tmp_path / "wrong")
     assert (FOUND.findall(rendered), no_python(rendered)) == ([code.code], [])
-
-
-def in_python(example: Example) -> Example:
-    """The same with the theory in Python."""
-    text = example.files.get(EXAMPLE)
-    if text is None:
-        return example
-    tree = parse_file(Source(EXAMPLE, text), findings := Findings())
-    assert tree is not None and not findings.has_errors
-    files = {name: text for name, text in example.files.items() if name != EXAMPLE}
-    return Example({**files, "example.py": python_text(tree)}, example.command.replace(EXAMPLE, "example.py"))
+    assert FOUND.findall(said(shown.right, tmp_path / "right")) == []
 
 
 @pytest.mark.parametrize("code", Code, ids=lambda code: code.code)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
@@ -64,14 +65,20 @@ class Bodies(Expressions):
         # The order of a set changes from run to run.
         ordered = sorted(values, key=repr) if isinstance(values, (set, frozenset)) else values
         for value in elements(ordered, self.span(node.iter)):
-            fixed, bound = dict(self.function.fixed), set(self.bound)
-            try:
-                self._assign(node.target, value)
+            with self._round(node.target, value):
                 yield from self.each(node.body, translate)
-            finally:
-                self.function.fixed.clear()
-                self.function.fixed.update(fixed)
-                self.bound |= bound
+
+    @contextlib.contextmanager
+    def _round(self, target: ast.expr, value: object) -> Iterator[None]:
+        """One round of a loop of Python: while it lasts its variables are constants, and hide what has their names."""
+        fixed, bound = dict(self.function.fixed), set(self.bound)
+        try:
+            self._assign(target, value)
+            yield
+        finally:
+            self.function.fixed.clear()
+            self.function.fixed.update(fixed)
+            self.bound |= bound
 
     def listed(self, node: ast.expr) -> object:
         """What a loop of Python goes through: a value of Python, or a list that is written out."""
