@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any
 
+import pytest
+
 from golc.diagnostics import DeviceError
 from golc.runtime.devices.base import Args, GivenUpError
 from golc.runtime.loop.happenings import (
