@@ -109,7 +109,9 @@ def _free(taken: Iterable[tuple[int, int]], count: int) -> int:
 
 def _check_clashes(entries: Sequence[Entry], findings: Findings) -> None:
     for one, other in pairwise(sorted(entries, key=lambda entry: entry.first)):
-        if other.first <= one.last:
+        # The same instances, bound again, are a finding already.
+        again = (other.action, other.args) == (one.action, one.args)
+        if other.first <= one.last and not again:
             findings.error(
                 Code.NUMBER_CLASH,
                 f"`{other.action}` takes {_numbers(other)}, which `{one.action}` has already",

@@ -197,7 +197,8 @@ def _sources(context: Context, node: tree.Exog) -> tuple[str, ...]:
     known = [*dict.fromkeys((*SOURCES, *context.device_names))]
     for source in node.sources:
         if source.text not in known:
-            help_ = did_you_mean(source.text, known) or f"known are {', '.join(known)}"
+            reporting = [name for name in known if name not in ("host", "self")]
+            help_ = did_you_mean(source.text, reporting) or f"write one of {', '.join(reporting)}"
             message = f"unknown source `{source.text}`"
             context.error(Code.UNKNOWN_NAME, message, source.span, "neither a kind of device nor a device", help_)
     return tuple([source.text for source in node.sources])

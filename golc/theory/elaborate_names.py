@@ -21,7 +21,7 @@ from golc.theory.types import BOOL, Collection, Enumeration, Type, show
 ASKING = (*FUNCTIONS, "known", "knows", "possible")
 """Words of the language that stand before an argument."""
 
-VALUES = ("true", "false", "none", "unknown", "waiting")
+VALUES = ("true", "false", "none", "unknown")
 """Words of the language that stand where a value can."""
 
 STATEMENTS = ("skip", "wait")
@@ -151,7 +151,7 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
         return None
     similar = context.names.similar(name.text, kinds, given)
     if similar is None:
-        help_ = _declare_doing(name, Kind.PROCEDURE in kinds)
+        help_ = _declare_doing(name, kinds, given)
         if Kind.PROCEDURE in kinds and not given:
             help_ = _as_word(name) or help_
         context.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
@@ -160,9 +160,11 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
     return None
 
 
-def _declare_doing(name: tree.Ident, procedure: bool) -> str:
-    golc = f"`action {name.text}`" + (f", or `proc {name.text}: …`" if procedure else "")
-    python = f"`def {name_text(name.text, name.span)}(…): …` under `@theory.action`"
+def _declare_doing(name: tree.Ident, kinds: Iterable[Kind], given: int | None) -> str:
+    kind, procedure = "exog" if {*kinds} == {Kind.EXOGENOUS} else "action", Kind.PROCEDURE in kinds
+    written = name.text + ("(…)" if given else "")
+    golc = f"`{kind} {written}`" + (f", or `proc {written}: …`" if procedure else "")
+    python = f"`def {name_text(name.text, name.span)}(…): …` under `@theory.{kind}`"
     return "declare it: " + name.span.either(golc, python + (" or `@theory.proc`" if procedure else ""))
 
 
@@ -230,6 +232,7 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     variables = () if given else tuple(scope.locals)
     similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
+    local = None if similar is None or similar.labels else scope.locals.get(similar.name)
     if similar is None and not given and name.text.lower() in ("true", "false", "none", "null"):
         _capital(context, name)
         return
@@ -248,7 +251,7 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         what, help_ = fluent if given else ("name", _declare(name))
         context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
     else:
-        context.misspelt(Code.UNKNOWN_NAME, name, similar)
+        context.misspelt(Code.UNKNOWN_NAME, name, similar, None if local is None else local.span)
 
 
 def _capital(context: Context, name: tree.Ident) -> None:

@@ -105,7 +105,7 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     elif found.type == BOOL and what == "`sum`" and found.span.source.python:
         help_ = f"write `count({shown(found)} for …)` for how often it is true"
     elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES and not found.span.source.python:
-        help_ = _parentheses(what.strip("`"))
+        help_ = parentheses(what.strip("`"))
     mismatch(context, found, "a number", what, help_)
     return broken(found.span)
 
@@ -134,7 +134,7 @@ def cure(found: Term, needed: Type) -> str | None:
     if isinstance(found, Literal) and found.value is None:
         return f"the type `{type_text(Optional(needed), place)}` has the value `{word('none', place)}`, too"
     if needed == BOOL and isinstance(found, Quantified) and not place.source.python:
-        return _parentheses(found.kind)
+        return parentheses(found.kind)
     if needed == BOOL and have:
         empty = "[]" if have.kind == "list" else place.either("{}", "set()")
         text = shown(found)
@@ -166,8 +166,9 @@ def _without_quotes(found: Term, needed: Type) -> str:
     return f"a string of Python is no symbol: write `{symbol}`"
 
 
-def _parentheses(kind: str) -> str:
-    return f"write `({kind} …) = …`: without parentheses `{kind}` takes in everything to its right"
+def parentheses(kind: str, op: str = "=") -> str:
+    """What helps against an aggregate that takes in the comparison it was to be a part of."""
+    return f"write `({kind} …) {op} …`: without parentheses `{kind}` takes in everything to its right"
 
 
 def shown(found: Term) -> str:

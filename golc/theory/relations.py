@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import cast
 
@@ -9,7 +10,7 @@ from golc.diagnostics import Code, Span
 from golc.theory.closed import NoValueError, arithmetic
 from golc.theory.context import Context
 from golc.theory.elaborate_types import home
-from golc.theory.expectations import both, broken, cure, mismatch, shown, suspects, typed
+from golc.theory.expectations import both, broken, cure, mismatch, parentheses, shown, suspects, typed
 from golc.theory.fitting import (
     BROKEN,
     NOTHING,
@@ -65,7 +66,13 @@ def equality(context: Context, op: Operator, left: Term, right: Term, span: Span
     """``=`` or ``!=`` of terms that have some kind of value in common."""
     if not _comparable(left, right):
         message = f"{both(left, right)} can never be equal"
-        help_ = _asks_membership(left, right) or cure(right, left.type) or _values(left, right) or _values(right, left)
+        help_ = (
+            _taken_in(op, left, span)
+            or _asks_membership(left, right)
+            or cure(right, left.type)
+            or _values(left, right)
+            or _values(right, left)
+        )
         blamed = suspects(context, left, right)
         context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common", help_, suspects=blamed)
         return broken(span)
@@ -77,6 +84,14 @@ def _clear(context: Context, left: Term, right: Term) -> None:
     """Two terms that go together speak for each other's declarations."""
     if BROKEN not in (left.type, right.type):
         context.clear(suspects(context, left, right))
+
+
+def _taken_in(op: Operator, left: Term, span: Span) -> str | None:
+    """What helps where the formula that is counted is compared, not their number."""
+    text = span.source.text
+    before = text[text.rfind("\n", 0, span.start) + 1 : span.start]
+    counted = left.type == BOOL and re.search(r"\bcount\b[^.]*\.[ \t]*$", before)
+    return parentheses("count", op.value) if counted else None
 
 
 def _asks_membership(left: Term, right: Term) -> str | None:
@@ -114,7 +129,7 @@ def ordering(context: Context, op: Operator, left: Term, right: Term, span: Span
     if order is None:
         message = f"{both(left, right)} have no order"
         marker, blamed = "numbers, or values of one enumeration, have an order", suspects(context, left, right)
-        context.error(Code.TYPE_MISMATCH, message, span, marker, suspects=blamed)
+        context.error(Code.TYPE_MISMATCH, message, span, marker, _taken_in(op, left, span), suspects=blamed)
         return broken(span)
     _clear(context, left, right)
     return Operation(op, (left, right), type=BOOL, span=span, order=order)
