@@ -96,6 +96,14 @@ def sign(text: str, place: Span) -> str:
     return next((each for each in SIGNS[text] if each in there), SIGNS[text][0])
 
 
+def joined_tightly(place: Span) -> bool:
+    """Whether Python's ``&``, ``|`` or ``~`` stands beside a term: they bind more tightly than comparisons."""
+    text = place.source.text
+    return place.source.python and bool(
+        re.search(r"[&|~]\s*\Z", text[: place.start]) or re.match(r"\s*[&|]", text[place.end :])
+    )
+
+
 def is_call(name: Span) -> bool:
     """Whether Python declares something by a call, not by a function, whose name is the place of its name then."""
     return name.source.python and not name.text.isidentifier()

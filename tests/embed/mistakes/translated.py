@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from golc.embed import Theory, after, bind, branch, causes, cost, each, enum, expect, given, interval, on, poss, run
 from golc.embed import choose, count, guard, interrupts, known, let, one_of, otherwise, pick, say, search, senses
-from golc.embed import optional, setting, star, test, together, union, unknown, until, var, wait, within
+from golc.embed import exists, forall, optional, setting, star, test, together, union, unknown, until, var, wait, within
 
 theory = Theory("mistakes")
 station = theory.type("station", interval(1, 6))
@@ -150,6 +150,37 @@ def d_enum(n: enum()):
 #! 15+6 GL143 an enumeration has at least one element
 #! help: write `enum("red", "green")`
     return True
+
+
+@theory.define
+def d_exists():
+    return exists(station, lambda n: free(n)) and forall(station, lambda n: free(n))
+#! 12+6 GL143 `exists(…)` is for Python outside translated functions
+#! help: write `any(φ for n in station)`
+
+
+@theory.define
+def d_forall():
+    return forall(station, lambda n: free(n))
+#! 12+6 GL143 `forall(…)` is for Python outside translated functions
+#! help: write `all(φ for n in station)`
+
+
+@theory.define
+#! 2+13 GL143 only a function written with `def` can be translated
+#! help: write the decorator with `@` right above the `def` of what it declares, without `async`
+async def d_async():
+    return location == 1
+
+
+@theory.action
+#! 2+13 GL143 only a function written with `def` can be translated
+#! help: of two decorators the upper one gets what the lower one makes, which is no function
+@theory.action
+#! 2+13 GL143 a second decorator would not be seen: the function is translated, not run
+#! help: leave one of them out
+def d_twice():
+    pass
 
 
 @theory.define
