@@ -162,7 +162,8 @@ def _without_quotes(found: Term, needed: Type) -> str:
         return "values of an enumeration stand without quotes"
     if not isinstance(found, Literal):
         return "a string of Python is no symbol"
-    symbol = f"{needed}.{found.value}" if str(needed).isidentifier() else f'symbols("{found.value}")'
+    owner = str(strip_optional(needed))
+    symbol = f"{owner}.{found.value}" if owner.isidentifier() else f'symbols("{found.value}")'
     return f"a string of Python is no symbol: write `{symbol}`"
 
 
