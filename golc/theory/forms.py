@@ -13,7 +13,6 @@ from golc.theory.types import BOOL, Collection, Enumeration, Interval, Optional,
 PYTHON_TYPES = {"bool": "bool", "int": "int", "string": "str", "real": "float"}
 
 SIGNS = {
-    "=": ("==",),
     "and": ("and", "&"),
     "or": ("or", "|"),
     "not": ("not", "~"),
