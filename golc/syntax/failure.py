@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
 from lark import Token, UnexpectedCharacters, UnexpectedToken
 from lark.parsers.lalr_interactive_parser import InteractiveParser
+from lark.parsers.lalr_parser_state import ParserState
 
 from golc.diagnostics import Code, Diagnostic, Fix, Label, Severity, Span
 from golc.syntax.layout import CLOSING, OPENING
@@ -87,6 +89,17 @@ class Failure:
                 stack.pop()
         return stack
 
+    def line_stacks(self) -> Iterator[tuple[Token, list[int]]]:
+        """The words and signs of the current line, the bad one last, each with the parser's stack before it."""
+        interactive = parser().parse_interactive(start=self.start)
+        stack, first = interactive.parser_state.state_stack, len(self.tokens) - len(self.line)
+        for number, token in enumerate(self.tokens):
+            if number >= first:
+                yield token, list(stack)
+            interactive.feed_token(token)
+        if self.bad is not None and self.kind not in LAYOUT:
+            yield self.bad, list(self.stack)
+
     @property
     def wants_expression(self) -> bool:
         """Whether an expression could begin here."""
@@ -158,6 +171,24 @@ def failure(part: Span, start: str, text: str) -> Failure | None:
     # The parser reduces before it finds that a token does not fit: what it accepts is asked of the state before that.
     accepts, chosen_from = _accepts(interactive, current), _accepts(interactive, before)
     return Failure(part, start, tuple(tokens), bad, place, accepts, chosen_from, tuple(current))
+
+
+def wants(start: str, stack: list[int], terminal: str) -> bool:
+    """Whether a terminal could come when the parser's stack is this one."""
+    state = ParserState(without_trees(start), None, list(stack), [])
+    try:
+        state.feed_token(Token(terminal, ""))
+    except UnexpectedToken:
+        return False
+    return True
+
+
+def without_trees(start: str) -> Any:
+    """What the parser needs to go on from a stack when it need not build trees, so that it needs no values of what it
+    has read."""
+    conf = copy(parser().parse_interactive(start=start).parser_state.parse_conf)
+    conf.callbacks = {}
+    return conf
 
 
 def _as_word(token: Token) -> Token:

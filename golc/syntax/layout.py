@@ -127,6 +127,17 @@ def split(text: str) -> list[Chunk]:
     return [*chunks, Chunk(start, len(text), too_deep)]
 
 
+def unclosed(text: str) -> list[str]:
+    """The brackets that are open at the end of a text."""
+    brackets: list[str] = []
+    for mark in _MARK.finditer(text):
+        if mark.group() in ("(", "[", "{"):
+            brackets.append(mark.group())
+        elif mark.group() in (")", "]", "}") and brackets:
+            brackets.pop()
+    return brackets
+
+
 def _begins(text: str, place: int, brackets: int) -> bool:
     if brackets:
         return _DECLARATION.match(text, place) is not None
