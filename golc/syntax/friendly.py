@@ -6,12 +6,9 @@ and the open brackets; the first that recognises its own speaks.
 
 from __future__ import annotations
 
-from lark import UnexpectedInput
-
-from golc.diagnostics import Code, Diagnostic, Span
+from golc.diagnostics import Diagnostic
 from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, quantifiers, signs, steps
-from golc.syntax.failure import Failure, Hint, failure
-from golc.syntax.layout import LayoutError
+from golc.syntax.failure import Failure, Hint
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
@@ -35,13 +32,6 @@ HINTS: tuple[Hint, ...] = (
 )
 
 
-def diagnose(
-    part: Span, start: str, text: str, error: UnexpectedInput | LayoutError
-) -> tuple[Diagnostic, Failure | None]:
-    """The finding for an error that the parser met in a part of a source, and how the parser failed if it did."""
-    if isinstance(error, LayoutError):
-        return blocks.wrong_layout(part, error), None
-    failed = failure(part, start, text)
-    if failed is None:
-        return Diagnostic(Code.SYNTAX, "this does not follow the grammar", part), None
-    return next(finding for hint in HINTS if (finding := hint(failed)) is not None), failed
+def diagnose(failed: Failure) -> Diagnostic:
+    """The finding for an error that the parser met."""
+    return next(finding for hint in HINTS if (finding := hint(failed)) is not None)

@@ -34,10 +34,9 @@ class Omission:
 
 def omissions(reading: Reading) -> Iterator[Omission]:
     """What could be passed over so that a reading comes further, the smallest first."""
-    _, failed = reading.diagnosis
-    text = _Text(reading.draft.whole)
-    if isinstance(reading.error, LayoutError):
-        yield from _other_indentation(text, reading.error)
+    failed, text = reading.error, _Text(reading.draft.whole)
+    if isinstance(failed, LayoutError):
+        yield from _other_indentation(text, failed)
     elif failed is not None:
         yield from _missing_blocks(text, failed)
         yield from _missing_branches(text, failed)
@@ -145,12 +144,13 @@ def _expressions(text: _Text, failed: Failure) -> Iterator[Omission]:
 
 
 def _beginnings(failed: Failure) -> Iterator[int]:
+    words = failed.line if failed.bad is None or failed.kind in LAYOUT else [*failed.line, failed.bad]
     depth = 0
-    for token, stack in failed.line_stacks():
-        depth -= token.type in CLOSING
+    for word, stack in zip(words, failed.stacks, strict=False):
+        depth -= word.type in CLOSING
         if depth == 0 and wants(failed.start, stack, "TRUE"):
-            yield token.start_pos or 0
-        depth += token.type in OPENING
+            yield word.start_pos or 0
+        depth += word.type in OPENING
 
 
 def _ends(text: _Text, failed: Failure) -> Iterator[int]:

@@ -5,37 +5,48 @@ from __future__ import annotations
 import re
 from functools import cached_property
 
-from lark import Token, Tree, UnexpectedInput, UnexpectedToken
+from lark import Token, Tree
 
 from golc.diagnostics import Diagnostic, Span
+from golc.syntax.blocks import wrong_layout
 from golc.syntax.draft import Draft
-from golc.syntax.failure import Failure
+from golc.syntax.failure import Failure, read
 from golc.syntax.friendly import diagnose
 from golc.syntax.layout import LayoutError
-from golc.syntax.parser import parser
+
+_CONTENT = re.compile(r"^[ \t]*[^\s#]", re.MULTILINE)
 
 
 class Reading:
-    """What the parser makes of a draft, read from a start symbol: ``parsed``, or None and the ``diagnosis``."""
+    """What the parser makes of a draft, read from a start symbol: a tree, or the error that it fails with; neither of
+    nothing but comments."""
 
     def __init__(self, draft: Draft, start: str) -> None:
         self.draft = draft
         self.start = start
         self.parsed: Tree[Token] | None = None
+        self.error: Failure | LayoutError | None = None
+        if not _CONTENT.search(draft.text):
+            return
         try:
-            self.parsed = parser().parse(draft.text, start=start)
-        except (UnexpectedInput, LayoutError) as error:
-            self.error: UnexpectedInput | LayoutError = error
+            found = read(draft.whole, start, draft.text)
+        except LayoutError as error:
+            self.error = error
+        else:
+            if isinstance(found, Failure):
+                self.error = found
+            else:
+                self.parsed = found
 
     @property
     def is_layout(self) -> bool:
         """Whether indentation is what it fails at."""
-        return self.parsed is None and isinstance(self.error, LayoutError)
+        return isinstance(self.error, LayoutError)
 
     @property
-    def has_content(self) -> bool:
-        """Whether there is more to read than comments."""
-        return re.search(r"^[ \t]*[^\s#]", self.draft.text, re.MULTILINE) is not None
+    def found(self) -> Span:
+        """Where the mistake in a text that fails stands in the source."""
+        return self.draft.back(self.diagnosis.span)
 
     @property
     def place(self) -> int:
@@ -43,15 +54,17 @@ class Reading:
         match self.error:
             case LayoutError(start=place):
                 return place
-            case UnexpectedToken(token=Token(type="$END")):
-                return len(self.draft.text)
-            case error:
-                return error.pos_in_stream or 0
+            case Failure(place=place):
+                return place
+        return len(self.draft.text)
 
     @cached_property
-    def diagnosis(self) -> tuple[Diagnostic, Failure | None]:
-        """The mistake in a text that fails, and how the parser failed if it was the parser."""
-        return diagnose(self.draft.whole, self.start, self.draft.text, self.error)
+    def diagnosis(self) -> Diagnostic:
+        """The mistake in a text that fails."""
+        if isinstance(self.error, Failure):
+            return diagnose(self.error)
+        assert self.error is not None
+        return wrong_layout(self.draft.whole, self.error)
 
     def placed(self, start: int, end: int) -> Span:
         """The place in the source of what stands between two offsets of the text."""

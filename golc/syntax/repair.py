@@ -87,7 +87,7 @@ def _goes_on(failure: Failure, inserted: str | None, rest: str) -> bool:
     """Whether, after one more terminal or none, the parser can read the rest of a line, with its end if it has one."""
     frontend: Any = parser().parser
     thread = LexerThread.from_text(frontend.lexer, rest.strip())
-    state: Any = ParserState(without_trees(failure.start), thread, list(failure.stack), [])
+    state: Any = ParserState(without_trees(failure.start), thread, list(failure.stacks[-1]), [])
     depth = len(failure.brackets) + _depth(inserted)
     lex: Any = thread.lex
     try:

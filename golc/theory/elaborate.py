@@ -97,7 +97,7 @@ def _is_unread(span: Span, unread: Iterable[Span]) -> bool:
     """Whether a place lies in what has been passed over, or is that of something which holds a part of that."""
     return any(
         span.source is each.source
-        and (each.start <= span.start and span.end <= each.end or span.start <= each.start and each.end <= span.end)
+        and ((each.start <= span.start and span.end <= each.end) or (span.start <= each.start and each.end <= span.end))
         for each in unread
     )
 
@@ -106,7 +106,11 @@ def _brings_a_name(unread: str) -> bool:
     """Whether what was not read would bring a name that does not stand in it: it has none, or one that cannot be one,
     or it is an import."""
     first = WORD.match(unread.strip())
-    return unread in RESERVED or _NAMELESS.match(unread.strip()) is not None or (first is not None and closest(first[0], ["import"]) is not None)
+    return (
+        unread in RESERVED
+        or _NAMELESS.match(unread.strip()) is not None
+        or (first is not None and closest(first[0], ["import"]) is not None)
+    )
 
 
 def _elaborate(
