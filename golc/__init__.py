@@ -23,9 +23,11 @@ if TYPE_CHECKING:
     from golc.planning.plans import Case, Outcome, Plan
     from golc.program.blame import Blocked
     from golc.rendering import render
+    from golc.runtime.conversation import Voice
     from golc.runtime.loop.happenings import End
-    from golc.runtime.running import Occurrence, Run, run
-    from golc.runtime.session import Voice
+    from golc.runtime.record import Occurrence, Run
+    from golc.runtime.running import run
+    from golc.runtime.settings import Options
     from golc.theory.ground import Call
     from golc.theory.types import Unknown
 
@@ -41,6 +43,7 @@ __all__ = [
     "LimitError",
     "NoPlanError",
     "Occurrence",
+    "Options",
     "Outcome",
     "Plan",
     "ProgramError",
@@ -66,9 +69,11 @@ _ROOMS = {
     "golc.planning.plans": ("Case", "Outcome", "Plan"),
     "golc.program.blame": ("Blocked",),
     "golc.rendering": ("render",),
+    "golc.runtime.conversation": ("Voice",),
     "golc.runtime.loop.happenings": ("End",),
-    "golc.runtime.running": ("Occurrence", "Run", "run"),
-    "golc.runtime.session": ("Voice",),
+    "golc.runtime.record": ("Occurrence", "Run"),
+    "golc.runtime.running": ("run",),
+    "golc.runtime.settings": ("Options",),
     "golc.theory.ground": ("Call",),
     "golc.theory.types": ("Unknown",),
 }

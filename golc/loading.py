@@ -144,7 +144,8 @@ def examine_file(
                 # What an imported file declares need not be used by every file that imports it.
                 if diagnostic.code is not Code.UNUSED or diagnostic.span.source is source:
                     findings.add(diagnostic)
-    found = tuple(sorted(findings.diagnostics, key=by_place(sources)))
+    # What Python writes once may stand for many parts of a theory, with the same to say of each.
+    found = tuple(sorted(dict.fromkeys(findings.diagnostics), key=by_place(sources)))
     theory = None if findings.has_errors else theory
     return Examined(theory, found, sources=sources, file=file, constants=constants)
 

@@ -17,10 +17,12 @@ from golc.situation.summary import Family, arguments, families
 from golc.theory.types import show
 
 if TYPE_CHECKING:
+    from golc.api.declared import Declared
     from golc.api.report import Report
     from golc.api.state import State
-    from golc.api.theory import Theory
-    from golc.runtime.running import Run
+    from golc.api.unfinished import Unfinished
+    from golc.diagnostics import Diagnostic
+    from golc.runtime.record import Run
 
 MOST = 200
 """Rows of a table and steps of a plan that are shown."""
@@ -28,10 +30,18 @@ MOST = 200
 CELL = ' style="text-align: left; vertical-align: top"'
 
 
-def theory_html(theory: Theory) -> str:
+def theory_html(theory: Declared) -> str:
     """Everything that a theory declares, in tables."""
     head = f"<p><b>{escape(theory.name)}</b> ({escape(theory.path)}): {escape(theory.counts())}</p>"
     return _div(head, *[_table(each.headings, each.rows) for each in tables(theory.elaborated)])
+
+
+def unfinished_html(unfinished: Unfinished) -> str:
+    """The names that are declared so far, and the findings about them."""
+    name, path = escape(unfinished.name), escape(unfinished.path)
+    head = f"<p><b>{name}</b> ({path}): {escape(unfinished.counts())}</p>"
+    table = _table(unfinished.declared.headings, unfinished.declared.rows) if unfinished.declared.rows else ""
+    return _div(head, table, *_findings(unfinished.findings))
 
 
 def state_html(state: State) -> str:
@@ -87,8 +97,11 @@ def run_html(run: Run) -> str:
 
 def report_html(report: Report) -> str:
     """Findings as the command line writes them."""
-    findings = [f"<pre>{escape(render(finding))}</pre>" for finding in report.findings[:MOST]]
-    return _div(f"<p>{escape(report.counts())}</p>", *findings)
+    return _div(f"<p>{escape(report.counts())}</p>", *_findings(report.findings))
+
+
+def _findings(findings: Sequence[Diagnostic]) -> Iterator[str]:
+    return (f"<pre>{escape(render(finding))}</pre>" for finding in findings[:MOST])
 
 
 def _values(family: Family) -> str:

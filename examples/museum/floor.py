@@ -9,9 +9,9 @@ CELLS = {(row, column): sign for row, line in enumerate(PLAN) for column, sign i
 
 
 def metres(start, end):
-    """The length of the shortest way between two rooms, or None if there is none."""
+    """The length of the shortest way between two rooms."""
     (place,) = [cell for cell, sign in CELLS.items() if sign == end[0]]
-    return _distances(start).get(place)
+    return _distances(start)[place]
 
 
 @cache

@@ -2,11 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from golc.diagnostics import Span, counted
+from golc.syntax import tree
 from golc.theory.theory import Action, BasicActionTheory, Device, Parameter
+
+KINDS: Mapping[type[tree.Node], str] = {
+    tree.TypeDecl: "type",
+    tree.Const: "const",
+    tree.Static: "static",
+    tree.Extern: "static",
+    tree.Fluent: "fluent",
+    tree.Define: "definition",
+    tree.Invariant: "invariant",
+    tree.Goal: "goal",
+    tree.Action: "action",
+    tree.Exog: "exogenous action",
+    tree.Proc: "procedure",
+    tree.Prune: "prune",
+    tree.PruneAfter: "prune",
+    tree.Scenario: "scenario",
+}
+"""What is declared by name, in the order in which a table lists it."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +61,15 @@ def tables(theory: BasicActionTheory) -> list[Table]:
         Table(("device", "file", ""), tuple(devices)),
     ]
     return [table for table in found if table.rows]
+
+
+def declared(file: tree.File) -> Table:
+    """The names that a tree declares, whether or not a theory can be made of it."""
+    names: dict[str, list[str]] = {kind: [] for kind in KINDS.values()}
+    for node in file.declarations:
+        if type(node) in KINDS:
+            names[KINDS[type(node)]].append(node.name.text)  # type: ignore[union-attr]
+    return Table(("declared so far", ""), tuple((kind, ", ".join(found)) for kind, found in names.items() if found))
 
 
 def as_text(table: Table) -> Iterator[str]:

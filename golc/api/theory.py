@@ -1,18 +1,18 @@
-"""A theory as users see it: what it declares, and every question that can be asked of it."""
+"""A theory as users see it: every question that can be asked of it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator
 from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 from golc.api import acting
 from golc.api.acting import Doing
-from golc.api.contents import as_text, tables
+from golc.api.declared import Declared
 from golc.api.state import State
-from golc.diagnostics import GolcError, LimitError, counted
-from golc.loading import Examined, theory_of
+from golc.diagnostics import GolcError, LimitError
+from golc.loading import Examined
 from golc.program.blame import Blocked
 from golc.situation import worlds
 from golc.situation.dynamics import Dynamics
@@ -20,8 +20,6 @@ from golc.theory.ground import Call, read_procedure
 from golc.theory.queries import Queries
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.statements import Strategy
-from golc.theory.theory import Action, BasicActionTheory, Constant, Definition, Device, Fluent, Procedure, Static
-from golc.theory.types import Type
 
 if TYPE_CHECKING:
     from golc.api.report import Report
@@ -45,7 +43,7 @@ class NoPlanError(GolcError):
         self.outcome = outcome
 
 
-class Theory:
+class Theory(Declared):
     """A basic action theory with its programs, as ``golc.load`` reads it from a domain file.
 
     It never changes, and asking changes nothing. Actions are texts such as ``"push(left)"``, or what ``possible`` and
@@ -61,99 +59,9 @@ class Theory:
 
     def __init__(self, examined: Examined) -> None:
         """Raises ``UserError`` with every error of the domain if there is one."""
-        self._examined = examined
-        self.elaborated: BasicActionTheory = theory_of(examined)
-        """As the rooms inside golc have it."""
+        super().__init__(examined)
         self._formula = lru_cache(ASKED)(self._compiled_formula)
         self._term = lru_cache(ASKED)(self._compiled_term)
-
-    # ---- what it declares
-
-    @property
-    def name(self) -> str:
-        """The name in the first line of the domain."""
-        return self.elaborated.name
-
-    @property
-    def path(self) -> str:
-        """The file that declares it, as it was named."""
-        return self.elaborated.source.name
-
-    @property
-    def overrides(self) -> Mapping[str, str]:
-        """The constants that were replaced when it was loaded."""
-        return self._examined.constants
-
-    @property
-    def constants(self) -> Mapping[str, Constant]:
-        """By name, in the order of declaration, as are all that follow."""
-        return self.elaborated.constants
-
-    @property
-    def types(self) -> Mapping[str, Type]:
-        """The named types; ``values`` lists those of a finite one."""
-        return self.elaborated.types
-
-    @property
-    def fluents(self) -> Mapping[str, Fluent]:
-        """What changes: each with ``parameters`` and ``type``."""
-        return self.elaborated.fluents
-
-    @property
-    def statics(self) -> Mapping[str, Static]:
-        """The functions that never change."""
-        return self.elaborated.statics
-
-    @property
-    def definitions(self) -> Mapping[str, Definition]:
-        """The names of terms and formulas; goals and invariants, too."""
-        return self.elaborated.definitions
-
-    @property
-    def actions(self) -> Mapping[str, Action]:
-        """What can be done, and what may happen (``exogenous``): each with ``parameters``."""
-        return self.elaborated.actions
-
-    @property
-    def procedures(self) -> Mapping[str, Procedure]:
-        """The programs: each with ``parameters``."""
-        return self.elaborated.procedures
-
-    @property
-    def goals(self) -> tuple[str, ...]:
-        """The names of the definitions that are goals."""
-        return self.elaborated.goals
-
-    @property
-    def devices(self) -> tuple[Device, ...]:
-        """Who does the actions: each with ``kind``, ``name`` and ``bindings``."""
-        return self.elaborated.devices
-
-    def __repr__(self) -> str:
-        return f"<Theory {self.name}: {self.counts()}>"
-
-    def __str__(self) -> str:
-        lines = [f"domain {self.name} ({self.path})"]
-        for table in tables(self.elaborated):
-            lines += ["", *as_text(table)]
-        return "\n".join(lines)
-
-    def _repr_html_(self) -> str:
-        from golc.notebook import theory_html
-
-        return theory_html(self)
-
-    def counts(self) -> str:
-        """``1 fluent, 2 actions, 1 procedure, 0 devices``: how much it declares."""
-        parts = (
-            (self.fluents, "fluent"),
-            (self.actions, "action"),
-            (self.procedures, "procedure"),
-            (self.devices, "device"),
-        )
-        return ", ".join(counted(len(part), what) for part, what in parts)
-
-    # ---- what is wrong with it
 
     def check(self, *, proofs: bool = True, reachable: bool = False) -> Report:
         """What ``golc check`` says of it; ``proofs`` and ``reachable`` are as for ``golc.check``.
@@ -186,8 +94,6 @@ class Theory:
 
         pages = explain(self.elaborated, name)
         return rendering.as_latex(pages) if latex else rendering.as_text(pages)
-
-    # ---- states and actions
 
     @cached_property
     def _dynamics(self) -> Dynamics:
@@ -260,7 +166,7 @@ class Theory:
         with deep_recursion(EVALUATION):
             return self._term(term)(self._raw(state), ())
 
-    def _raw(self, state: State) -> Any:
+    def _raw(self, state: State) -> worlds.State:
         if state.dynamics is not self._dynamics:
             raise ValueError(f"the state is not one of this theory, `{self.name}`")
         return state.raw
@@ -277,8 +183,6 @@ class Theory:
     def _compiled_term(self, text: str) -> Callable[..., Any]:
         with deep_recursion():
             return self._dynamics.knowing.shown(self._queries.term(text), 0)
-
-    # ---- plans
 
     def plan(
         self,
@@ -355,8 +259,6 @@ class Theory:
         call = read_procedure(self.elaborated, program or "control")
         ready = executable(self.elaborated, call.action, call.args, conformant)
         return Planning(ready, limits, every, Strategy(strategy), start)
-
-    # ---- the brick
 
     def gen_nqc(
         self, folder: str | Path | None = None, *, device: str | None = None, target: str = "rcx2", tones: bool = False

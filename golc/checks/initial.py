@@ -7,12 +7,13 @@ from collections.abc import Collection, Iterator
 from typing import cast
 
 from golc.diagnostics import Code, Findings
+from golc.proofs.at_first import AtFirst
 from golc.theory.closed import Closed, NoValueError
 from golc.theory.evaluate import Env
 from golc.theory.fitting import describe
-from golc.theory.terms import Choice, Term, Variable, subterms
+from golc.theory.terms import Choice, Membership, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Fluent
-from golc.theory.types import Value, show, show_call
+from golc.theory.types import BOOL, Value, show, show_call
 
 LIMIT = 100_000
 """Instances of one fluent that are looked at."""
@@ -22,15 +23,15 @@ def check_initial(theory: BasicActionTheory, findings: Findings) -> None:
     """Row 2 of what ``golc check`` proves; that there is an initial value at all is found by elaboration."""
     closed = Closed(theory.statics.get, theory.definitions.get)
     for fluent in theory.fluents.values():
-        _check_fluent(fluent, closed, findings)
+        _check_fluent(theory, fluent, closed, findings)
         if closed.steps < 0:
             return
 
 
-def _check_fluent(fluent: Fluent, closed: Closed, findings: Findings) -> None:
+def _check_fluent(theory: BasicActionTheory, fluent: Fluent, closed: Closed, findings: Findings) -> None:
     instances = _instances(fluent)
     for args in itertools.islice(instances, LIMIT):
-        if not _check_instance(fluent, args, closed, findings):
+        if not _check_instance(theory, fluent, args, closed, findings):
             return  # the other instances have probably the same mistake
     if next(instances, None) is not None:
         _not_decided(fluent, f"it has more than {LIMIT} instances", findings)
@@ -55,7 +56,7 @@ def _levels(term: Term) -> set[int]:
     return {part.level for part in subterms(term) if isinstance(part, Variable)}
 
 
-def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Findings) -> bool:
+def _check_instance(theory: BasicActionTheory, fluent: Fluent, args: Env, closed: Closed, findings: Findings) -> bool:
     what = show_call(fluent.name, args)
     try:
         values = _values(fluent, args, closed)
@@ -67,7 +68,8 @@ def _check_instance(fluent: Fluent, args: Env, closed: Closed, findings: Finding
         if isinstance(error, NoValueError):
             reason, span = error.reason, error.span
             if error.finding is not None:
-                findings.once(error.finding)
+                if error.finding.code is not Code.NOT_EXECUTED or not _is_always_within(theory, fluent):
+                    findings.once(error.finding)
                 return False
         findings.error(Code.INITIAL_VALUE, f"the initial value of `{what}` cannot be computed: {reason}", span, "here")
         return False
@@ -87,3 +89,11 @@ def _values(fluent: Fluent, args: Env, closed: Closed) -> Collection[Value]:
     if isinstance(fluent.initial, Choice):
         return cast(Collection[Value], closed.value(fluent.initial.among, args))
     return (closed.value(fluent.initial, args),)
+
+
+def _is_always_within(theory: BasicActionTheory, fluent: Fluent) -> bool:
+    """Whether the initial values of a fluent are of its type whatever functions that are not executed are."""
+    if isinstance(fluent.initial, Choice):
+        return False
+    formula = Membership(fluent.initial, fluent.type, type=BOOL, span=fluent.initial.span)
+    return AtFirst(theory).holds(formula, fluent.parameters) is True

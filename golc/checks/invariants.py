@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from golc.checks.beginning import Beginning
-from golc.diagnostics import Code, Findings, ProgramError, Span
+from golc.diagnostics import Code, Diagnostic, Findings, ProgramError, Span
+from golc.proofs.at_first import AtFirst
 from golc.theory.closed import Closed, NoValueError
-from golc.theory.errors import ExternError
+from golc.theory.errors import ExternError, NotExecutedError
 from golc.theory.evaluate import Env
 from golc.theory.terms import Choice, FluentTerm, PossTerm
 from golc.theory.theory import BasicActionTheory, Definition
@@ -22,10 +23,12 @@ def check_invariants(theory: BasicActionTheory, beginning: Beginning | None, fin
         if beginning is None:
             _check(theory, invariant, findings)
         else:
-            _check_everywhere(beginning, invariant, findings)
+            _check_everywhere(theory, beginning, invariant, findings)
 
 
-def _check_everywhere(beginning: Beginning, invariant: Definition, findings: Findings) -> None:
+def _check_everywhere(
+    theory: BasicActionTheory, beginning: Beginning, invariant: Definition, findings: Findings
+) -> None:
     """Invariants hold in each of the worlds that are possible at first."""
     try:
         for case in beginning.cases(invariant.body):
@@ -39,6 +42,10 @@ def _check_everywhere(beginning: Beginning, invariant: Definition, findings: Fin
                     Code.INVARIANT_AT_FIRST, message, invariant.body.span, "not in every world", help_, notes=notes
                 )
                 return
+    except NotExecutedError as error:
+        if _holds(theory, invariant, error.diagnostic, findings) is False:
+            message = f"invariant `{invariant.name}` is false in a world that is possible at first"
+            findings.error(Code.INVARIANT_AT_FIRST, message, invariant.body.span, "not in every world")
     except ExternError as error:
         findings.once(error.diagnostic)
     except ProgramError as error:
@@ -48,7 +55,7 @@ def _check_everywhere(beginning: Beginning, invariant: Definition, findings: Fin
 def _check(theory: BasicActionTheory, invariant: Definition, findings: Findings) -> None:
     initially = Initially(theory)
     try:
-        holds = initially.value(invariant.body)
+        holds: Value = initially.value(invariant.body)
     except (NoValueError, RecursionError) as error:
         if initially.steps < 0:
             _not_decided(invariant, "it takes too many steps", findings)
@@ -57,13 +64,27 @@ def _check(theory: BasicActionTheory, invariant: Definition, findings: Findings)
         if isinstance(error, NoValueError):
             reason, span = error.reason, error.span
             if error.finding is not None:
-                findings.once(error.finding)
+                if _holds(theory, invariant, error.finding, findings) is False:
+                    _does_not_hold(invariant, findings)
                 return
         _no_value(invariant, reason, span, findings)
         return
     if holds is not True:
-        message = f"invariant `{invariant.name}` is false in the initial state"
-        findings.error(Code.INVARIANT_AT_FIRST, message, invariant.body.span, "does not hold at first")
+        _does_not_hold(invariant, findings)
+
+
+def _holds(theory: BasicActionTheory, invariant: Definition, finding: Diagnostic, findings: Findings) -> bool | None:
+    """Whether an invariant holds at first; none, and what is said already, if a function of Python has no value for
+    that."""
+    holds = AtFirst(theory).holds(invariant.body) if finding.code is Code.NOT_EXECUTED else None
+    if holds is None:
+        findings.once(finding)
+    return holds
+
+
+def _does_not_hold(invariant: Definition, findings: Findings) -> None:
+    message = f"invariant `{invariant.name}` is false in the initial state"
+    findings.error(Code.INVARIANT_AT_FIRST, message, invariant.body.span, "does not hold at first")
 
 
 def _not_decided(invariant: Definition, reason: str, findings: Findings) -> None:

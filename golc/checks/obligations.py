@@ -61,7 +61,7 @@ class Obligations:
     def _not_executed(self, static: Static) -> None:
         """Say once that a function of Python would decide something."""
         if self._is_new(Code.NOT_DECIDED, static.span):
-            message = f"what depends on `{static.name}` is not decided: its file is not executed"
+            message = f"not all that depends on `{static.name}` is decided: its file is not executed"
             help_ = "`--trust` would decide it: it executes the file"
             self.findings.add(
                 Diagnostic(Code.NOT_DECIDED, message, static.span, Severity.NOTE, "a function of Python", help=help_)

@@ -124,6 +124,17 @@ constants_option = click.option(
 """``-D NAME=VALUE``: the command gets ``constants``, a mapping from names to texts."""
 
 
+def speed_option(advice: str) -> Callable[[F], F]:
+    """``--speed X``, with a word about the other side: the command gets ``speed``."""
+    return click.option(
+        "--speed",
+        type=Quantity(0.01, 1000),
+        default=1.0,
+        show_default=True,
+        help=f"How many simulated seconds pass in one; {advice}.",
+    )
+
+
 def address(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[str, int] | None:
     """A callback for an option ``HOST:PORT``; port 0 is any free one."""
     if value is None:

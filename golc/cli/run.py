@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 import errno
+import sys
 from collections.abc import Mapping
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from golc.cli.common import Console, Quantity, address, console_options, constants_option
+from golc.cli.common import Console, Quantity, address, console_options, constants_option, speed_option
 
 if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
-    from golc.runtime.session import Voice
+    from golc.runtime.conversation import Voice
+    from golc.runtime.settings import OnFailure, Options
+
+
+def _at_a_failure() -> OnFailure:
+    """Somebody at a terminal can be asked."""
+    return "ask" if sys.stdin is not None and sys.stdin.isatty() else "stop"
 
 
 @click.command(name="run", short_help="Run a program online, on a brick or a simulated one.")
@@ -24,6 +31,7 @@ if TYPE_CHECKING:
     type=click.Choice(["auto", "classic"]),
     default="auto",
     show_default=True,
+    expose_value=False,  # there is no other protocol yet
     help="How to talk to the brick; auto is classic, the protocol of Legolog.",
 )
 @click.option("--events", type=click.Path(), metavar="FILE", help="A timed script of exogenous actions.")
@@ -54,19 +62,15 @@ if TYPE_CHECKING:
 @click.option(
     "--on-failure",
     type=click.Choice(["ask", "retry", "next", "stop"]),
+    default=_at_a_failure,
+    show_default=False,
     help="What to do about an action that its device cannot do: ask (the default at a terminal), or stop.",
 )
 @click.option(
     "--check-invariants", is_flag=True, help="End the run as failed when an action or event has broken an invariant."
 )
 @click.option("--step", is_flag=True, help="Ask before each action.")
-@click.option(
-    "--speed",
-    type=Quantity(0.01, 1000),
-    default=1.0,
-    show_default=True,
-    help="How many simulated seconds pass in one; a simulated brick needs the same.",
-)
+@speed_option("a simulated brick needs the same")
 @click.option("--seed", type=int, default=0, show_default=True, help="Of what the simulated brick leaves to chance.")
 @click.option(
     "--world",
@@ -82,21 +86,8 @@ def command(
     file: str,
     procedure: str,
     port: str | None,
-    link: str,
-    events: str | None,
-    listen: tuple[str, int] | None,
-    journal: str | None,
-    stop_when_idle: float | None,
-    on_impossible: Literal["apply", "drop", "stop"],
-    on_surprise: Literal["apply", "stop"],
-    on_failure: Literal["ask", "retry", "next", "stop"] | None,
-    check_invariants: bool,
-    step: bool,
-    speed: float,
-    seed: int,
-    world: str | None,
-    picture: str | None,
     constants: Mapping[str, str],
+    **options: Unpack[Options],
 ) -> int:
     """Run a program of FILE online: decide, have the devices act, and listen to the world.
 
@@ -109,35 +100,13 @@ def command(
     golc run examples/delivery/delivery.gl
     golc run examples/delivery/delivery.gl --port /dev/ttyUSB0 --journal today.jsonl
     """
-    if port not in (None, "sim") and (world is not None or picture is not None):
+    if port not in (None, "sim") and (options["world"] is not None or options["picture"] is not None):
         raise click.UsageError("--world and --picture are for a simulated brick, not for one at a port")
-    import sys
-
     from golc.api.loading import load
     from golc.runtime.running import run
 
-    if on_failure is None:
-        on_failure = "ask" if sys.stdin is not None and sys.stdin.isatty() else "stop"
-    try:
-        run(
-            load(file, constants),
-            procedure,
-            port,
-            voice=_voice(console),
-            events=events,
-            listen=listen,
-            journal=journal,
-            stop_when_idle=stop_when_idle,
-            on_impossible=on_impossible,
-            on_surprise=on_surprise,
-            on_failure=on_failure,
-            check_invariants=check_invariants,
-            step=step,
-            speed=speed,
-            seed=seed,
-            world=world,
-            picture=picture,
-        )
+    try:  # a run may go on for weeks, and who wants a record of it has the journal
+        run(load(file, constants), procedure, port, voice=_voice(console), remember=0, **options)
     except FileExistsError as error:
         problem = f"the journal {error} exists already; name another file, or remove that one first"
         raise click.UsageError(problem) from None
@@ -146,11 +115,9 @@ def command(
 
 def _voice(console: Console) -> Voice:
     """What the run says goes to stdout, what is wrong to stderr."""
-    import sys
-
     from golc.rendering import render
+    from golc.runtime.conversation import Voice
     from golc.runtime.observers.trace import Style
-    from golc.runtime.session import Voice
 
     encoding = (sys.stdout.encoding or "").lower().replace("-", "")
     style = Style(console.colored(sys.stdout), unicode=encoding.startswith("utf"))

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from golc.cli import sim_machine
-from golc.cli.common import Console, Quantity, address, console_options, constants_option
+from golc.cli.common import Console, Quantity, address, console_options, constants_option, speed_option
 
 if TYPE_CHECKING:
     from golc.runtime.rcxsim.line import Line, LineOptions
@@ -57,13 +57,7 @@ def _outages(
     "--pty", "link", type=click.Path(path_type=Path), metavar="PATH", help="Make a link to the terminal here."
 )
 @click.option("--tcp", metavar="HOST:PORT", callback=address, help="Listen here instead; port 0 is any free one.")
-@click.option(
-    "--speed",
-    type=Quantity(0.01, 1000),
-    default=1.0,
-    show_default=True,
-    help="How many simulated seconds pass in one; give the host the same.",
-)
+@speed_option("give the host the same")
 @click.option(
     "--air-time",
     type=Quantity(0, 10),

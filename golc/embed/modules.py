@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import linecache
 import os
-import re
 import sys
 import traceback
 import warnings
@@ -14,13 +13,12 @@ from pathlib import Path
 from types import ModuleType, TracebackType
 
 from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
+from golc.embed.cures import cure
 from golc.embed.errors import refused
-from golc.embed.names import BUILTINS, golc_name
 from golc.embed.parts import Written
 from golc.embed.places import code_span, line_span, offset, source_of
 from golc.embed.theory import Theory
 from golc.theory.python_file import failure, logger
-from golc.theory.suggest import did_you_mean
 
 HERE = str(Path(__file__).parent)
 
@@ -134,23 +132,7 @@ def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
         if broken.text:
             return (_syntax(error, broken),)
     message = f"Python fails here with {failure(error)}"
-    return (Diagnostic(Code.PYTHON_RAISED, message, place, labels=tuple(labels), help=_cure(error, source)),)
-
-
-def _cure(error: BaseException, source: Source) -> str | None:
-    """What helps against an exception, if that can be seen."""
-    match error:
-        case ModuleNotFoundError():
-            return "install it where golc runs, or put it beside this file"
-        case ImportError(msg=text, name=str(module)) if missing := re.match(r"cannot import name '(\w+)'", text):
-            name = missing[1]
-            if golc_name(name) in BUILTINS:
-                return f"Python's own `{golc_name(name)}` has a meaning in a theory"
-            return did_you_mean(name, dir(sys.modules.get(module)))
-        case FileNotFoundError(filename=str(path)) if not Path(path).is_absolute():
-            if (Path(source.name).parent / path).exists():
-                return f'`Path(__file__).with_name("{path}")` is the file beside this one, wherever golc is run'
-    return None
+    return (Diagnostic(Code.PYTHON_RAISED, message, place, labels=tuple(labels), help=cure(error, source.name)),)
 
 
 def _places(where: TracebackType | None) -> Iterator[Span]:

@@ -8,7 +8,7 @@ import unicodedata
 
 from golc.diagnostics import Code, Span
 from golc.embed.errors import refused
-from golc.embed.terms import described
+from golc.embed.values import described
 from golc.syntax import tree
 from golc.syntax.words import RESERVED
 
@@ -50,7 +50,8 @@ def new_name(text: object, span: Span, used: bool = False) -> tree.Ident:
             Code.PYTHON_MEANING, f"{what} cannot be a name", span, f"{help_}, as in `{near}`" if near else help_
         )
     if text in RESERVED and not used:
-        help_ = f"choose another name, for example `{text}_` or `the_{text}`"
+        free = [each for each in (f"{text}_", f"the_{text}") if golc_name(each) != text]
+        help_ = f"choose another name, for example {' or '.join(f'`{each}`' for each in free)}"
         raise refused(Code.RESERVED, f"`{text}` is a word of the language and cannot be a name", span, help_)
     return tree.Ident(text, span=span)
 

@@ -5,14 +5,18 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from golc.diagnostics import Findings, Source, Span
 from golc.embed.errors import Refused
+from golc.embed.owners import Owned, check_owners
 from golc.embed.places import calling_frame
 from golc.embed.reading.depth import check_depth
 from golc.syntax import tree
 from golc.theory.recursion import deep_recursion
+
+if TYPE_CHECKING:
+    from golc.embed.types import TypeHandle
 
 Making: TypeAlias = Callable[[], tree.Declaration]
 """Makes a declaration; raises ``Refused``."""
@@ -27,10 +31,16 @@ class Written:
     sources: tuple[Source, ...]
 
 
-@dataclass
+@dataclass(eq=False)
 class Parts:
-    """What a theory is made of: declarations by their keys, and other theories."""
+    """What one theory is made of: declarations by their keys, and the parts of theories that are included.
 
+    ``domain`` is its name, ``place`` where it began; ``types`` are the handles of its types so far.
+    """
+
+    domain: tree.Ident
+    place: Span
+    types: dict[str, TypeHandle] = field(default_factory=dict)
     entries: list[tuple[object, Making | Parts]] = field(default_factory=list)
 
     def put(self, key: object, making: Making) -> None:
@@ -60,29 +70,45 @@ class Parts:
         """Add the declarations of another theory, those still to come among them."""
         self.entries.append((None, other))
 
-    def written(self, domain: tree.Ident, place: Span) -> Written:
-        """The tree of all declarations."""
+    def type_of(self, name: str) -> TypeHandle | None:
+        """The handle of a type that is named in this theory, if there is one so far."""
+        home = name.owner if isinstance(name, Owned) else self
+        return home.types.get(name)
+
+    def written(self) -> Written:
+        """The tree of all declarations; what is wrong with one does not hide the others."""
         findings = Findings()
         made: list[tree.Declaration] = []
         with deep_recursion():
-            for making in self._makings([]):
+            owners = self._joined()
+            for making in self._makings(set()):
                 try:
                     node = making()
                     check_depth(node)
+                    check_owners(node, owners)
                 except Refused as error:
                     findings.diagnostics += error.diagnostics
                 else:
                     made.append(node)
-        sources = {id(each): each for each in (place.source, *(node.span.source for node in made))}
-        return Written(tree.File(domain, tuple(made), span=place), findings, tuple(sources.values()))
+        sources = {id(each): each for each in (self.place.source, *(node.span.source for node in made))}
+        return Written(tree.File(self.domain, tuple(made), span=self.place), findings, tuple(sources.values()))
 
-    def _makings(self, seen: list[Parts]) -> Iterator[Making]:
-        seen.append(self)
+    def _makings(self, seen: set[Parts]) -> Iterator[Making]:
+        seen.add(self)
         for _, entry in self.entries:
             if not isinstance(entry, Parts):
                 yield entry
-            elif not any(entry is each for each in seen):
+            elif entry not in seen:
                 yield from entry._makings(seen)
+
+    def _joined(self) -> set[Parts]:
+        """These parts with all that are included in them, or in one of those."""
+        found, waiting = {self}, [self]
+        while waiting:
+            new = {entry for _, entry in waiting.pop().entries if isinstance(entry, Parts)} - found
+            found |= new
+            waiting += new
+        return found
 
 
 def _is_interactive() -> bool:

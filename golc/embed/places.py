@@ -97,14 +97,27 @@ def code_span(source: Source, code: CodeType, instruction: int, line: int) -> Sp
     return Span(source, offset(source, first, column), offset(source, last, end))
 
 
-def argument(call: Span, index: int, keyword: str) -> Span:
-    """Where the value of a parameter is written in a call; all of the call where that cannot be told."""
+def argument(call: Span, index: int | None, keyword: str) -> Span:
+    """Where the value of a parameter is written in a call; all of the call where that cannot be told.
+
+    ``index`` is its place among the arguments, none for one that is given only by its name.
+    """
     node = node_at(call)
     if not isinstance(node, ast.Call):
         return call
-    by_place = node.args[index : index + 1] if not any(isinstance(each, ast.Starred) for each in node.args) else []
+    spread = any(isinstance(each, ast.Starred) for each in node.args)
+    by_place = [] if index is None or spread else node.args[index : index + 1]
     found = [*by_place, *(each.value for each in node.keywords if each.arg == keyword)]
     return span_of(call.source, found[0]) if found else call
+
+
+def each_argument(call: Span, count: int) -> list[Span]:
+    """Where the arguments of a call are written, one by one; the whole call for each where that cannot be told."""
+    node = node_at(call)
+    given = node.args if isinstance(node, ast.Call) else []
+    if len(given) != count or any(isinstance(each, ast.Starred) for each in given):
+        return [call] * count
+    return [span_of(call.source, each) for each in given]
 
 
 def caller() -> Span:

@@ -1,34 +1,24 @@
-"""Terms and formulas outside translated functions: Python's operators build the tree.
-
-What Python would answer at once (``and``, ``or``, ``not``, ``if``, a chain of comparisons, ``in``) cannot be asked of a
-term, whose value depends on the situation: it is refused at its place.
-"""
+"""Terms and formulas outside translated functions: Python's operators build the tree."""
 
 from __future__ import annotations
 
 import ast
-import contextlib
-import contextvars
 from collections.abc import Iterable, Iterator
-from decimal import Decimal
-from typing import Any, NoReturn, TypeVar
+from typing import Any, NoReturn
 
 from golc.diagnostics import NOWHERE, Code, Span
-from golc.embed.errors import Refused, meaningless, refused
+from golc.embed import asked
+from golc.embed.asked import Unanswerable
+from golc.embed.errors import Refused, refused
 from golc.embed.places import caller, calling_frame, frame_span, node_at, span_of
+from golc.embed.values import Meaningful, expr
 from golc.syntax import tree
-from golc.syntax.layout import LONGEST_NUMBER
 from golc.syntax.walk import descendants
 from golc.theory.suggest import did_you_mean
 
-_LARGEST = 10**LONGEST_NUMBER
-T = TypeVar("T")
-MOST_ELEMENTS = 100_000
-SIGNS = "write `&`, `|` and `~` with each comparison in parentheses; or write it in a translated function"
-
-
-COMPARISONS: dict[type[ast.cmpop], str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
-TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
+_ORDERS: dict[type[ast.cmpop], str] = {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">="}
+_TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
+"""What a comparison says with its sides exchanged."""
 
 
 class Variable(str):
@@ -37,20 +27,7 @@ class Variable(str):
     __slots__ = ()
 
 
-_translating: contextvars.ContextVar[bool] = contextvars.ContextVar("translating", default=False)
-
-
-@contextlib.contextmanager
-def translating() -> Iterator[None]:
-    """While this lasts Python runs for a translated function: terms stand for values that nobody knows yet."""
-    token = _translating.set(True)
-    try:
-        yield
-    finally:
-        _translating.reset(token)
-
-
-class Term:
+class Term(Unanswerable, Meaningful):
     """A term or formula of the language, a ``Named`` or a ``Compound``; its ``node`` is the tree that was built."""
 
     __slots__ = ("node",)
@@ -58,21 +35,24 @@ class Term:
     def __init__(self, node: tree.Expr) -> None:
         self.node = node
 
+    def _tree_at(self, span: Span) -> tree.Expr:
+        return self.node
+
     def __repr__(self) -> str:
         from golc.syntax.unparse import unparse_expression
 
         return unparse_expression(self.node)
 
     def __hash__(self) -> int:
-        if self._is_open() and _translating.get():
-            help_ = "make a dictionary a static, whose value is this dictionary; write a set with `{…}` in the function"
-            raise meaningless("Python looks a term up at once, before there is a situation", caller(), help_)
+        if self._is_open() and asked.is_translating():
+            raise asked.place_in_a_table()
+        if self._is_open() and asked.is_membership(span := caller()):
+            raise asked.membership(span)
         return object.__hash__(self)
 
     def __str__(self) -> str:
-        if self._is_open() and _translating.get():
-            help_ = 'write the term into the message itself: `say(f"{e}")`'
-            raise meaningless("Python writes a term at once, before there is a situation", caller(), help_)
+        if self._is_open() and asked.is_translating():
+            raise asked.text()
         return repr(self)
 
     def _is_open(self) -> bool:
@@ -156,28 +136,33 @@ class Term:
         raise AttributeError(f"a term has no attribute `{name}`", name=name, obj=self)
 
     def __bool__(self) -> bool:
-        _no_truth()
+        raise asked.truth()
 
     def __iter__(self) -> Iterator[Term]:
-        raise meaningless("Python cannot go through a term, whose value depends on the situation", caller())
+        raise asked.elements()
 
     def __contains__(self, item: object) -> bool:
-        span = caller()
-        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
-        raise meaningless("Python's `in` answers at once, before there is a situation", span, help_)
+        raise asked.membership(caller())
 
     def __len__(self) -> int:
-        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
-        raise meaningless("Python's `len` answers at once, before there is a situation", caller(), help_)
+        raise asked.length()
 
 
 class Compound(Term):
     """What operators, functions and calls have built.
 
-    It is a class beside ``Named``, not above it: Python would ask the right side of a comparison first.
+    It is a class beside ``Named``, not above it: Python would ask the right side of a comparison first. ``truth`` says
+    whether a formula is true in every situation, where that is plain.
     """
 
-    __slots__ = ()
+    __slots__ = ("truth",)
+
+    def __init__(self, node: tree.Expr, truth: bool | None = None) -> None:
+        super().__init__(node)
+        self.truth = truth
+
+    def __bool__(self) -> bool:
+        return super().__bool__() if self.truth is None else self.truth
 
 
 class Named(Term):
@@ -189,13 +174,22 @@ class Named(Term):
     __slots__ = ("kind", "name", "parameters")
 
     def __init__(self, name: str, kind: str, parameters: tuple[str, ...] = (), span: Span = NOWHERE) -> None:
-        super().__init__(tree.Apply(tree.Ident(name, span=span), (), span=span))
         self.name = name
+        super().__init__(self._tree_at(span))
         self.kind = kind
         self.parameters = parameters
 
+    def _tree_at(self, span: Span) -> tree.Expr:
+        return tree.Apply(tree.Ident(self.name, span=span), (), span=span)
+
+    def __hash__(self) -> int:
+        return hash((Named, self.name)) if self.kind == "symbol" else super().__hash__()
+
     def _is_open(self) -> bool:
-        return not self.parameters and self.kind in ("variable", "const", "static", "fluent", "definition")
+        return not self.parameters and self._is_unsettled()
+
+    def _is_unsettled(self) -> bool:
+        return self.kind in ("variable", "const", "static", "fluent", "definition")
 
     def __call__(self, *args: object, **named: object) -> Term:
         """The name applied to arguments, by place or by the names of the parameters."""
@@ -248,15 +242,24 @@ def binary(sign: Any, left: object, right: object) -> Term:
     """An infix operation at the place where Python computes it."""
     span, (first, second) = _place(2)
     if _turned(sign, node_at(span)):
-        sign, left, right = TURNED[sign], right, left
-    return Compound(tree.Binary(sign, expr(left, first), expr(right, second), span=span))
+        sign, left, right = _TURNED[sign], right, left
+    node = tree.Binary(sign, expr(left, first), expr(right, second), span=span)
+    return Compound(node, _plain_truth(sign, left, right))
+
+
+def _plain_truth(sign: str, left: object, right: object) -> bool | None:
+    """Whether a comparison is true in every situation, as one of two symbols is or is not."""
+    match left, right:
+        case Named(kind="symbol", name=one), Named(kind="symbol", name=other) if sign in ("=", "!="):
+            return (one == other) == (sign == "=")
+    return None
 
 
 def _turned(sign: str, node: ast.AST | None) -> bool:
     """Whether Python has asked the right side of a comparison, because the left one is a number or a string."""
     match node:
         case ast.Compare(left=left, ops=[op]):
-            return isinstance(left, ast.Constant) if sign in ("=", "!=") else COMPARISONS.get(type(op), sign) != sign
+            return isinstance(left, ast.Constant) if sign in ("=", "!=") else _ORDERS.get(type(op), sign) != sign
     return False
 
 
@@ -292,105 +295,6 @@ def _place(count: int) -> tuple[Span, list[Span]]:
     return span, [span_of(source, part) for part in parts] if len(parts) == count else [span] * count
 
 
-def expr(value: object, span: Span) -> tree.Expr:
-    """The tree of a Python value that means something in a theory; a name and a literal stand at ``span``.
-
-    Raises ``Refused`` for a value that means nothing.
-    """
-    match value:
-        case Named():
-            return tree.Apply(tree.Ident(value.name, span=span), (), span=span)
-        case Term():
-            return value.node
-        case bool():
-            return tree.Truth(value, span=span)
-        case int():
-            if value.bit_length() > _LARGEST.bit_length():
-                raise _too_long(span)
-            number = tree.Number(abs(value), span=span)
-            return number if value >= 0 else tree.Unary("-", number, span=span)
-        case float() | Decimal():
-            return _real(value, span)
-        case str():
-            return tree.Message((value,) if value else (), span=span)
-        case None:
-            return tree.Nothing(span=span)
-        case set() | frozenset():
-            return tree.SetLiteral(tuple(expr(each, span) for each in sorted(value, key=repr)), span=span)
-        case list() | tuple() | range():
-            return tree.ListLiteral(tuple(expr(each, span) for each in elements(value, span)), span=span)
-    # Asked of the class, because an object may have an answer for every name.
-    as_term = getattr(type(value), "as_term", None)
-    if as_term is not None and isinstance(term := as_term(value), Term):
-        return expr(term, span)
-    raise refused(Code.PYTHON_VALUE, f"{described(value)} means nothing in a theory", span, _instead(value))
-
-
-def _real(value: float | Decimal, span: Span) -> tree.Expr:
-    number = Decimal(repr(value)) if isinstance(value, float) else value
-    if not number.is_finite():
-        raise refused(Code.PYTHON_VALUE, f"{value} is no number of the language", span)
-    if abs(number.adjusted()) > LONGEST_NUMBER or len(number.as_tuple().digits) > LONGEST_NUMBER:
-        raise _too_long(span)
-    text = format(abs(number), "f")
-    real = tree.Real(Decimal(text if "." in text else f"{text}.0"), span=span)
-    return real if number >= 0 else tree.Unary("-", real, span=span)
-
-
-def _too_long(span: Span) -> Refused:
-    message = f"a number of so many digits is too long: the limit is {LONGEST_NUMBER}"
-    return refused(Code.PYTHON_VALUE, message, span)
-
-
-def elements(values: Iterable[T], span: Span) -> Iterator[T]:
-    """What is to be written out, one by one. Raises ``Refused`` where there is no end of it."""
-    for count, value in enumerate(values):
-        if count == MOST_ELEMENTS:
-            message = f"this has more than {MOST_ELEMENTS} elements, which would all be written out"
-            raise refused(Code.PYTHON_VALUE, message, span, "write `interval(1, n)` for integers in a row")
-        yield value
-
-
 def plain_names(node: tree.Expr) -> Iterator[str]:
     """The names in a term that have no arguments."""
     return (each.name.text for each in descendants(node) if isinstance(each, tree.Apply) and not each.args)
-
-
-def described(value: object) -> str:
-    """What a Python value is, for a message."""
-    match value:
-        case type():
-            return f"the Python class `{value.__name__}`"
-        case dict():
-            return "a dictionary"
-    name = getattr(value, "__name__", None)
-    if callable(value) and isinstance(name, str):
-        return f"the Python function `{name}`"
-    return f"a Python value of type `{type(value).__name__}`"
-
-
-def _instead(value: object) -> str:
-    if isinstance(value, dict):
-        return "a table is the value of a static: `start = theory.static(…)`; a term can use it: `start(x)`"
-    if callable(value):
-        return "call it, or declare it with a decorator of the theory"
-    return "numbers, strings, truth values, `None`, lists, sets and what the theory declares can stand here"
-
-
-def _no_truth() -> NoReturn:
-    """Python asks a term for its truth."""
-    span = caller()
-    node = node_at(span)
-    what = "`if`, `and`, `or`, `not` and a chain of comparisons ask a term for its truth"
-    help_ = SIGNS
-    match node:
-        case ast.Compare(ops=ops) if len(ops) > 1:
-            what = "a chain of comparisons asks a term for its truth"
-            help_ = "write two comparisons: `(a <= x) & (x <= b)`; or write it in a translated function"
-        case ast.BoolOp(op=op):
-            word, sign = ("and", "&") if isinstance(op, ast.And) else ("or", "|")
-            what = f"`{word}` asks a term for its truth"
-            help_ = f"write `(…) {sign} (…)`, or write it in a translated function"
-        case ast.UnaryOp(op=ast.Not()):
-            what, help_ = "`not` asks a term for its truth", "write `~(…)`, or write it in a translated function"
-    raise refused(Code.PYTHON_TRUTH, f"{what} now, before there is a situation", span, help_)

@@ -3,24 +3,46 @@
 from __future__ import annotations
 
 import typing
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import chain
 from types import UnionType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from golc.diagnostics import Code, Span
-from golc.embed.errors import meaningless, refused
+from golc.embed import asked
+from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.names import new_name
-from golc.embed.places import caller
-from golc.embed.terms import Named, Term, described, expr
+from golc.embed.owners import owned
+from golc.embed.places import argument, caller, each_argument
+from golc.embed.terms import Named, Term
+from golc.embed.values import Meaningful, described, expr
 from golc.syntax import tree
+
+if TYPE_CHECKING:
+    from golc.embed.parts import Parts
 
 BUILT_IN: dict[object, str] = {bool: "bool", int: "int", float: "real", str: "string"}
 """Python's types for those that are built into the language."""
 
 
-class TypeForm:
-    """A type of the language; its ``node`` is the tree."""
+class TypeObject:
+    """What stands for a type, and can be joined with others."""
+
+    __slots__ = ()
+
+    def __or__(self, other: object) -> TypeForm:
+        """``t | None`` is the optional type, ``t | u`` the union."""
+        return joined((self, other), caller())
+
+    def __ror__(self, other: object) -> TypeForm:
+        return joined((other, self), caller())
+
+    def __contains__(self, item: object) -> bool:
+        raise asked.membership(caller())
+
+
+class TypeForm(TypeObject):
+    """A type without a name; its ``node`` is the tree."""
 
     __slots__ = ("node",)
 
@@ -32,33 +54,28 @@ class TypeForm:
 
         return type_text(self.node)
 
-    def __or__(self, other: object) -> TypeForm:
-        """``t | None`` is the optional type, ``t | u`` the union."""
-        return joined((self, other), caller())
 
-    def __ror__(self, other: object) -> TypeForm:
-        return joined((other, self), caller())
+class TypeHandle(TypeObject, Meaningful):
+    """A declared type. Going through it gives its symbols and integers in order; ``phase.moving`` is a symbol.
 
-    def __contains__(self, item: object) -> bool:
-        help_ = "write it in a translated function: `@theory.goal`, `@theory.define` …"
-        raise meaningless("Python's `in` answers at once, before there is a situation", caller(), help_)
+    ``value``: what it stands for, if that is known where Python runs; ``home``: the parts of the theory that declares
+    it. All that is not a symbol begins with ``_``, for a symbol may have any other name.
+    """
 
+    __slots__ = ("_home", "_listed", "_name", "_value")
 
-class TypeHandle(TypeForm):
-    """A declared type. Going through it gives its symbols and integers in order; ``phase.moving`` is a symbol."""
-
-    __slots__ = ("_listed", "_look_up", "name", "value")
-
-    def __init__(self, name: str, value: tree.Type, look_up: Callable[[str], object]) -> None:
-        super().__init__(tree.TypeName(tree.Ident(name)))
-        self.name = name
-        self.value = value
-        self._look_up = look_up
+    def __init__(self, name: str, value: tree.Type | None = None, home: Parts | None = None) -> None:
+        self._name = owned(name, home)
+        self._value = value
+        self._home = home
         self._listed: list[Sequence[Named | int]] | None = None
 
-    def as_term(self) -> Named:
+    def __repr__(self) -> str:
+        return self._name
+
+    def _tree_at(self, span: Span) -> tree.Expr:
         """The type's name as the list of its values."""
-        return Named(self.name, "type")
+        return tree.Apply(tree.Ident(self._name, span=span), (), span=span)
 
     def __iter__(self) -> Iterator[Named | int]:
         return chain.from_iterable(self._pieces())
@@ -66,35 +83,31 @@ class TypeHandle(TypeForm):
     def __len__(self) -> int:
         return sum(len(piece) for piece in self._pieces())
 
-    def symbols(self) -> dict[str, Named]:
-        """Its symbols by their names; integers, which may be very many, are not gone through."""
-        pieces = [piece for piece in self._pieces() if not isinstance(piece, range)]
-        return {value.name: value for value in chain.from_iterable(pieces) if isinstance(value, Named)}
-
     def __getattr__(self, name: str) -> Named:
-        if not name.startswith("_") and (symbol := self.symbols().get(name)) is not None:
+        if not name.startswith("_") and (symbol := symbols_of(self).get(name)) is not None:
             return symbol
-        raise AttributeError(f"the type `{self.name}` has no symbol `{name}`", name=name, obj=self)
+        raise AttributeError(f"the type `{self}` has no symbol `{name}`", name=name, obj=self)
 
     def _pieces(self) -> list[Sequence[Named | int]]:
         # The same symbols every time: they may be keys of a dictionary.
         if self._listed is None:
-            self._listed = self._values(self.value)
+            self._listed = self._values(self._value)
         return self._listed
 
-    def _values(self, node: tree.Type) -> list[Sequence[Named | int]]:
+    def _values(self, node: tree.Type | None) -> list[Sequence[Named | int]]:
         match node:
             case tree.EnumType(elements=elements):
-                return [[e.value if isinstance(e, tree.Number) else Named(e.text, "symbol") for e in elements]]
+                return [[e.value if isinstance(e, tree.Number) else self._symbol(e.text) for e in elements]]
             case tree.IntervalType(low=low, high=high):
                 return [range(self._bound(low), self._bound(high) + 1)]
             case tree.UnionType(pieces=pieces):
                 return [value for piece in pieces for value in self._values(piece)]
-            case tree.TypeName(name=name):
-                other = self._look_up(name.text)
-                if isinstance(other, TypeHandle):
-                    return other._pieces()
-        raise meaningless(f"the values of `{self.name}` cannot be listed here", caller())
+            case tree.TypeName(name=name) if self._home is not None and (other := self._home.type_of(name.text)):
+                return other._pieces()
+        raise meaningless(f"the values of `{self}` cannot be listed here", caller())
+
+    def _symbol(self, name: str) -> Named:
+        return Named(owned(name, self._home), "symbol")
 
     def _bound(self, node: tree.Expr) -> int:
         match node:
@@ -102,24 +115,42 @@ class TypeHandle(TypeForm):
                 return value
             case tree.Unary(op="-", operand=tree.Number(value=value)):
                 return -value
-            case tree.Apply(name=name, args=()):
-                const = self._look_up(name.text)
-                if isinstance(const, tree.Number):
-                    return const.value
         help_ = "go through them in a translated function, or keep the bound as a number of Python"
-        raise meaningless(f"the values of `{self.name}` are not known before its constants are", caller(), help_)
+        raise meaningless(f"the values of `{self}` are not known before its constants are", caller(), help_)
+
+
+def symbols_of(handle: TypeHandle) -> dict[str, Named]:
+    """The symbols of a type by their names; its integers, which may be very many, are not gone through.
+
+    Raises ``Refused`` if they are not known where Python runs.
+    """
+    pieces = [piece for piece in handle._pieces() if not isinstance(piece, range)]
+    return {value.name: value for value in chain.from_iterable(pieces) if isinstance(value, Named)}
+
+
+def is_enumeration(handle: TypeHandle) -> bool:
+    """Whether a type is declared as one of symbols and integers."""
+    return isinstance(handle._value, tree.EnumType)
 
 
 def interval(low: object, high: object) -> TypeForm:
     """``low .. high``: the integers from one bound to the other, both included; bounds may be terms of constants."""
     span = caller()
-    return TypeForm(tree.IntervalType(expr(low, span), expr(high, span), span=span))
+    first, last = argument(span, 0, "low"), argument(span, 1, "high")
+    return TypeForm(tree.IntervalType(expr(low, first), expr(high, last), span=span))
 
 
 def enum(*elements: object) -> TypeForm:
     """``{a, b}``: symbols, named by strings, or integers, in their order."""
     span = caller()
-    return TypeForm(tree.EnumType(tuple(element(each, span) for each in elements), span=span))
+    return TypeForm(enumeration(tuple(map(element, elements, each_argument(span, len(elements)))), span))
+
+
+def enumeration(elements: tuple[tree.Ident | tree.Number, ...], span: Span) -> tree.EnumType:
+    """The tree of an enumeration. Raises ``Refused`` for one of nothing."""
+    if not elements:
+        raise meaningless("an enumeration has at least one element", span, 'write `enum("red", "green")`')
+    return tree.EnumType(elements, span=span)
 
 
 def element(value: object, span: Span) -> tree.Ident | tree.Number:
@@ -127,11 +158,16 @@ def element(value: object, span: Span) -> tree.Ident | tree.Number:
     match value:
         case str():
             return new_name(value, span)
-        case TypeHandle() | Named() if not (isinstance(value, Named) and value.kind == "variable"):
-            return tree.Ident(value.name, span=span)
+        # What an enumeration names is declared there, whoever else has it.
+        case TypeHandle(_name=name):
+            return tree.Ident(str(name), span=span)
+        case Named(name=name, kind=kind) if kind != "variable":
+            return tree.Ident(str(name), span=span)
         case int() if not isinstance(value, bool):
             return tree.Number(value, span=span)
-    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, "write a string")
+    several = isinstance(value, (list, tuple, set, frozenset))
+    help_ = "write `enum(*names)` for all that a list has" if several else "write a string"
+    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no element of an enumeration", span, help_)
 
 
 def union(*pieces: object) -> TypeForm:
@@ -146,25 +182,21 @@ def optional(base: object) -> TypeForm:
 
 def symbols(*names: str) -> Any:
     """The symbols of enumerations that have no name: ``red, green = symbols("red", "green")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span).text, "symbol") for name in names)
+    return _one_or_all(Named(new_name(name, span).text, "symbol") for name, span in _placed(names))
 
 
 def names(*names: str) -> Any:
     """What an imported file declares, types apart: ``bed, water = names("bed", "water")``; of one name itself."""
-    span = caller()
-    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name in names)
+    return _one_or_all(Named(new_name(name, span, used=True).text, "name") for name, span in _placed(names))
 
 
 def types(*names: str) -> Any:
     """The types that an imported file declares: ``row, soil = types("row", "soil")``; of one name itself."""
-    span = caller()
-    return _one_or_all(elsewhere(new_name(name, span, used=True)) for name in names)
+    return _one_or_all(TypeHandle(new_name(name, span, used=True).text) for name, span in _placed(names))
 
 
-def elsewhere(name: tree.Ident) -> TypeHandle:
-    """A type of which no more than its name is known."""
-    return TypeHandle(name.text, tree.TypeName(name), lambda _: None)
+def _placed(names: Sequence[str]) -> Iterator[tuple[str, Span]]:
+    return zip(names, each_argument(caller(), len(names)), strict=True)
 
 
 def _one_or_all(things: Iterable[object]) -> object:
@@ -174,16 +206,16 @@ def _one_or_all(things: Iterable[object]) -> object:
 
 def joined(parts: tuple[object, ...], span: Span) -> TypeForm:
     """The union of some types, with ``None`` among them the optional type of the others."""
-    pieces: list[tree.Type] = []
-    for part in parts:
-        if part is not None:
-            node = type_node(part, span)
-            pieces += node.pieces if isinstance(node, tree.UnionType) else [node]
-    return TypeForm(join_nodes(pieces, None in parts, span))
+    pieces = [type_node(part, span) for part in parts if part is not None]
+    return TypeForm(join_nodes(pieces, len(pieces) < len(parts), span))
 
 
-def join_nodes(pieces: list[tree.Type], nothing: bool, span: Span) -> tree.Type:
-    """The tree of a union, or of the optional type of one. Raises ``Refused`` where a piece cannot be one."""
+def join_nodes(parts: list[tree.Type], nothing: bool, span: Span) -> tree.Type:
+    """The tree of a union, or of the optional type of one. Raises ``Refused`` where a part cannot be one."""
+    pieces = [piece for part in parts for piece in (part.pieces if isinstance(part, tree.UnionType) else (part,))]
+    if not pieces:
+        help_ = 'write `station | None` or `station | enum("table")`'
+        raise meaningless("there is no type to be joined", span, help_)
     inner: list[tree.TypeName | tree.IntervalType | tree.EnumType] = []
     for piece in pieces:
         if isinstance(piece, tree.OptionalType) and (len(pieces) > 1 or nothing):
@@ -202,28 +234,38 @@ def type_node(value: object, span: Span) -> tree.Type:
     Raises ``Refused`` for anything else.
     """
     match value:
-        case TypeHandle(name=name):
+        case TypeHandle(_name=name):
             return tree.TypeName(tree.Ident(name, span=span), span=span)
         case TypeForm(node=node):
             return node
         case str():
             return tree.TypeName(new_name(value, span), span=span)
-        case UnionType():
-            return joined(tuple(None if arg is type(None) else arg for arg in typing.get_args(value)), span).node
         case range(start=start, stop=stop, step=1):
             return tree.IntervalType(expr(start, span), expr(stop - 1, span), span=span)
-    help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
-    if isinstance(value, Term):
-        raise refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
-    if isinstance(value, type) and value in BUILT_IN:
+    if is_built_in(value):
         return tree.TypeName(tree.Ident(BUILT_IN[value], span=span), span=span)
-    if value is type(None):
-        raise meaningless("`None` alone is no type", span, "write `t | None` for a type and the value `None`")
     origin, args = typing.get_origin(value), typing.get_args(value)
-    if origin is typing.Union:
+    if origin in (typing.Union, UnionType):
         return joined(tuple(None if arg is type(None) else arg for arg in args), span).node
     if origin in (set, list) and len(args) == 1:
         return tree.CollectionType("set" if origin is set else "list", type_node(args[0], span), span=span)
-    if value in (set, list):
-        raise meaningless("a set or a list needs the type of its elements", span, "write `set[station]`")
-    raise refused(Code.PYTHON_VALUE, f"{described(value)} is no type of the language", span, help_)
+    raise _no_type(value, span)
+
+
+def is_built_in(value: object) -> bool:
+    """Whether a value is a class of Python that is also a type of the language."""
+    return any(value is each for each in BUILT_IN)
+
+
+def _no_type(value: object, span: Span) -> Refused:
+    if value is type(None):
+        return meaningless("`None` alone is no type", span, "write `t | None` for a type and the value `None`")
+    if value is set or value is list:
+        return meaningless("a set or a list needs the type of its elements", span, "write `set[station]`")
+    help_ = "`bool`, `int`, `str`, `float`, `interval(1, 6)`, `enum(…)` and declared types are types"
+    if isinstance(value, Term):
+        return refused(Code.MISUSED_NAME, f"`{value!r}` is no type", span, help_)
+    if isinstance(value, (list, tuple, set, frozenset)):
+        help_ = "write `enum(…)` around its elements, `enum(*names)` for all that a list has"
+    what = described(value) if typing.get_origin(value) is None else f"`{value}`"
+    return refused(Code.PYTHON_VALUE, f"{what} is no type of the language", span, help_)

@@ -6,23 +6,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from golc.theory.terms import (
-    Before,
     Binder,
     Choice,
     Comprehension,
-    DefinedTerm,
-    Display,
-    Epistemic,
-    FluentTerm,
-    Literal,
-    Membership,
-    Operation,
-    PossTerm,
     Quantified,
-    StaticTerm,
     Term,
-    Text,
     Variable,
+    children,
+    with_children,
 )
 
 
@@ -37,24 +28,14 @@ class Renaming:
     def __call__(self, term: Term) -> Term:
         """The term in the new scope."""
         match term:
-            case Literal():
-                return term
             case Variable(level=level):
                 return self.terms[level] if level < len(self.terms) else self._bound(term)
-            case FluentTerm() | StaticTerm() | DefinedTerm() | PossTerm() | Operation():
-                return replace(term, args=tuple([self(arg) for arg in term.args]))
-            case Membership(element=element):
-                return replace(term, element=self(element))
             case Quantified(binders=binders, where=where, body=body):
                 return replace(term, binders=self._binders(binders), where=where and self(where), body=self(body))
             case Comprehension(binders=binders, where=where, element=element):
                 return replace(term, binders=self._binders(binders), where=where and self(where), element=self(element))
-            case Display(elements=elements):
-                return replace(term, elements=tuple([self(element) for element in elements]))
-            case Text(parts=parts):
-                return replace(term, parts=tuple([part if isinstance(part, str) else self(part) for part in parts]))
-            case Epistemic(body=body) | Before(body=body):
-                return replace(term, body=self(body))
+            case _:
+                return with_children(term, tuple([self(inside) for inside in children(term)]))
 
     def choice(self, choice: Choice) -> Choice:
         """A choice in the new scope."""

@@ -37,7 +37,6 @@ from golc.proofs.encoded import (
 from golc.proofs.symbols import NeedsPythonError, NotDecidedError
 from golc.proofs.values import Values, evaluated
 from golc.theory.border import PythonFunction, extern_value
-from golc.theory.errors import NotExecutedError
 from golc.theory.fitting import size, strip_optional
 from golc.theory.terms import (
     Binder,
@@ -57,7 +56,7 @@ from golc.theory.terms import (
     Variable,
 )
 from golc.theory.theory import BasicActionTheory, Parameter, Static
-from golc.theory.types import REAL, Type, Value
+from golc.theory.types import INT, REAL, Type, Value
 
 MOST_INSTANCES = 20_000
 """How many instances of quantifiers and of calls are written out for one question."""
@@ -233,7 +232,10 @@ class Encoder(Values):
         return with_ok(value, both(ok, self.within(value, static.type)))
 
     def _extern(self, static: Static, args: Env, ok: Formula) -> Encoded:
-        """A function of Python, as a table."""
+        """A function of Python, as a table, or, if it is not executed, any function of its declared types."""
+        assert isinstance(static.body, PythonFunction)
+        if not static.body.file.trusted:
+            return with_ok(self._any_function(static, args), ok)
         types = [parameter.type for parameter in static.parameters]
         if not all(type_.finite for type_ in types) or math.prod(map(size, types)) > MOST_INSTANCES:
             raise NotDecidedError(f"`{static.name}` has more arguments than a table of its values can have")
@@ -244,11 +246,22 @@ class Encoder(Values):
                 found = selected(
                     fits, self.literal(extern_value(static, key, static.span), strip_optional(static.type)), found
                 )
-            except NotExecutedError as error:
-                raise NeedsPythonError(error.name) from None
             except ProgramError:
                 ok = both(ok, negated(fits))
         return with_ok(found, ok)
+
+    def _any_function(self, static: Static, args: Env) -> Encoded:
+        """What any function of the parameters gives for arguments, the same wherever they are the same."""
+        places: list[Any] = []
+        for arg, parameter in zip(args, static.parameters, strict=True):
+            if parameter.type.finite:
+                places.append(self.place(arg, parameter.type))
+            elif strip_optional(parameter.type) == INT:
+                is_none = equal(arg.kind, NONE)
+                places += [chosen(is_none, 1, 0), chosen(is_none, 0, arg.number)]
+            else:
+                raise NeedsPythonError(static.name)
+        return self.of_type(static.name, static.type, tuple(places))
 
     def _epistemic(self, term: Epistemic, env: Env, read: Read) -> Encoded:
         guess = z3.Bool(self.fresh("known"))

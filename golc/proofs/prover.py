@@ -11,10 +11,12 @@ from typing import Any
 from golc.diagnostics import ProgramError
 from golc.proofs.asking import Asking, Leaf
 from golc.proofs.cases import MOST_LOOKS, Budget, Case, explore, sample
-from golc.proofs.domains import Domain
+from golc.proofs.domains import Domain, any_of
 from golc.proofs.questions import Question, Undecided, Witness
+from golc.proofs.rigid import Rigid
 from golc.proofs.smallest import rank, reduced, smallest
 from golc.proofs.symbols import NeedsPythonError, NotDecidedError
+from golc.proofs.uniform import Uniform
 from golc.proofs.weaken import Weakening
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value
@@ -40,14 +42,70 @@ class Prover:
     asking: Asking = field(init=False)
 
     def __post_init__(self) -> None:
-        self.asking = Asking(self.theory, GUESS)
+        self._rigid = Rigid(self.theory)
+        self.asking = Asking(self._rigid.theory, GUESS)
         self._looks = ALL_LOOKS
 
     def answer(self, question: Question, small: bool = True) -> Witness | Undecided | None:
         """A witness; none if there is provably none. If it is to be ``small``, a smallest one of those in the cases
         that can be gone through, otherwise the first one.
+
+        What the answer is, it is for every function of the right type in place of one that is not executed.
         """
-        question = self._weakening.in_order(question)
+        question = self._weakening.in_order(self._rigid.question(question))
+        answer = self._answer(question, small)
+        if answer is None or not self._rigid.functions:
+            return answer
+        return self._whatever_they_are(question, answer, small)
+
+    def _whatever_they_are(self, question: Question, answer: Witness | Undecided, small: bool) -> Witness | Undecided:
+        """The answer, if it does not depend on functions that are not executed; another witness that does not."""
+        asked = self._rigid.asked_by(question)
+        if isinstance(answer, Undecided):
+            return replace(answer, function=asked[0]) if asked and answer.function is None else answer
+        functions = [*asked, *self._rigid.assumed()]
+        if not functions or not answer.certain:
+            return answer
+        found = self._uniform.witness(question, self._values(question, answer))
+        if found is None:
+            return Undecided(str(NeedsPythonError(functions[0])), function=functions[0])
+        domains = self.asking.domains_of(question)
+        matter = reduced(self.asking, question, found.values, found.answer) if small else None
+        try:
+            return self._fixed(question, domains, found.values, matter)
+        except NeedsPythonError:  # it is the solver that has shown it
+            return self.asking.witness(question, domains, found.values, None)
+
+    def _values(self, question: Question, witness: Witness) -> dict[int, Value]:
+        """The values of a witness by their slots."""
+        slots = self.asking.layout.slots
+        named = {slots[name]: value for name, value in witness.fluents.items()}
+        return named | dict(enumerate(witness.variables, start=self.asking.layout.size))
+
+    @cached_property
+    def _uniform(self) -> Uniform:
+        names = self.asking.layout.ground_fluents
+        slots = [slot for slot, (name, _) in enumerate(names) if name in self._rigid.fluents]
+        return Uniform(self.asking, frozenset(slots), self._refuted)
+
+    def _refuted(self, question: Question, values: Mapping[int, Value]) -> Mapping[int, Value] | None:
+        """Values with which what a question asks is not so, if a solver finds some that include the given ones."""
+        try:
+            from golc.proofs.solver import refuted
+        except ImportError:
+            raise NotDecidedError("there is no solver") from None
+        names, first = self.asking.layout.ground_fluents, self.asking.layout.size
+        domains = self.asking.domains_of(question)
+        fluents = {names[slot]: value for slot, value in values.items() if slot < first}
+        variables = [values.get(slot, any_of(domains[slot])) for slot in range(first, len(domains))]
+        found = refuted(self._rigid.theory, question, fluents, variables)
+        return None if found is None else self._slots(found)
+
+    def _slots(self, fluents: Mapping[tuple[str, tuple[Value, ...]], Value]) -> dict[int, Value]:
+        """The values of ground fluents by their slots."""
+        return {self.asking.layout.places[name].slot(args): value for (name, args), value in fluents.items()}
+
+    def _answer(self, question: Question, small: bool) -> Witness | Undecided | None:
         answer = self._explored(question, small)
         if not isinstance(answer, Undecided):
             return answer
@@ -60,12 +118,12 @@ class Prover:
 
     @cached_property
     def _weakening(self) -> Weakening:
-        return Weakening(self.theory)
+        return Weakening(self._rigid.theory)
 
     @cached_property
     def _coarse(self) -> Prover:
         """A prover that assumes only what can be gone through: what it proves to be impossible is so."""
-        return Prover(replace(self.theory, invariants=self._weakening.definite_invariants()))
+        return Prover(replace(self._rigid.theory, invariants=self._weakening.definite_invariants()))
 
     def _explored(self, question: Question, small: bool) -> Witness | Undecided | None:
         domains = self.asking.domains_of(question)
@@ -79,10 +137,8 @@ class Prover:
                 if number == MOST_CASES:
                     undecided = Undecided(f"more than {number} cases would have to be told apart")
                     break
-        except NeedsPythonError as error:
-            return Undecided(str(error), function=error.name)
         except NotDecidedError as error:
-            undecided = Undecided(str(error))
+            undecided = Undecided(str(error), function=error.name if isinstance(error, NeedsPythonError) else None)
         if not all(case.whole for case, _ in found):
             undecided = undecided or Undecided("a value is asked for that cannot be enumerated")
         if any(leaf.is_witness for _, leaf in found):
@@ -114,22 +170,22 @@ class Prover:
         except ImportError:
             return replace(why, help="install `golc[smt]`, which brings a solver")
         try:
-            found = solve(self.theory, question, small)
+            found = solve(self._rigid.theory, question, small)
         except NotDecidedError as error:
-            return Undecided(f"{why.reason}; {error}")
+            return replace(why, reason=f"{why.reason}; {error}")
         if found is None:
             return None
-        fixed = [*domains]
-        for (name, args), value in found[0].items():
-            fixed[self.asking.layout.places[name].slot(args)] = (value,)
-        fixed[self.asking.layout.size :] = [(value,) for value in found[1]]
+        values = self._slots(found[0]) | dict(enumerate(found[1], start=self.asking.layout.size))
+        fixed = [(values[slot],) if slot in values else of for slot, of in enumerate(domains)]
         try:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
                 if leaf.is_witness:
                     return self._witness(question, domains, [(case, leaf)], small)
+        except NeedsPythonError:
+            return self.asking.witness(question, domains, values, None)
         except NotDecidedError as error:
-            return Undecided(f"{why.reason}; {error}")
-        return Undecided(f"{why.reason}; what the solver says is not confirmed")
+            return replace(why, reason=f"{why.reason}; {error}")
+        return replace(why, reason=f"{why.reason}; what the solver says is not confirmed")
 
     def _witness(
         self,

@@ -29,7 +29,10 @@ LONGEST_INVARIANT = 3_000
 
 UNKNOWN = "the solver does not decide it"
 
-Found = tuple[Mapping[tuple[str, tuple[Value, ...]], Value], Sequence[Value]]
+Ground = tuple[str, tuple[Value, ...]]
+"""A ground fluent: its name and its arguments."""
+
+Found = tuple[Mapping[Ground, Value], Sequence[Value]]
 """The values of ground fluents, and those of the question's variables."""
 
 
@@ -60,6 +63,34 @@ def solve(theory: BasicActionTheory, question: Question, small: bool = False) ->
     ):
         return None
     raise NotDecidedError(f"the solver looks at lists of up to {LONGEST} elements only" if model is None else UNKNOWN)
+
+
+def refuted(
+    theory: BasicActionTheory, question: Question, fluents: Mapping[Ground, Value], variables: Sequence[Value]
+) -> Mapping[Ground, Value] | None:
+    """A situation with some values in which what a question asks is not so, or an invariant does not hold, or none if
+    there is provably none.
+
+    Raises ``NotDecidedError`` if the solver does not know, or the question cannot be put to it.
+    """
+    encoder, effort = Encoder(theory), Effort(theory)
+    types = [variable.type for variable in question.variables]
+    known = [encoder.literal(value, strip_optional(of)) for value, of in zip(variables, types, strict=True)]
+    asking = _Asking(theory, encoder, tuple(known))
+    wanted, short = asking.question(question), encoder.shortened
+    assumed = [*asking.invariants(effort)]
+    given = [
+        same(encoder.fluent(name, [*map(encoder.literal, args)]), encoder.literal(value, strip_optional(of)))
+        for (name, args), value in fluents.items()
+        for of in [theory.fluents[name].type]
+    ]
+    model = _model([negated(both(wanted, *[formula for formula, _ in assumed])), *given, *encoder.facts])
+    if isinstance(model, z3.ModelRef):
+        return encoder.values(model)
+    whole = not short and len(assumed) == len(theory.invariants) and all(whole for _, whole in assumed)
+    if model is None and whole:
+        return None
+    raise NotDecidedError(UNKNOWN)
 
 
 def _model(formulas: list[Formula]) -> Any:

@@ -6,15 +6,14 @@ fails. So if the weaker one has none, the whole one has none.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 
 from golc.proofs.certain import NO_FACTS, Certainty, Facts
 from golc.proofs.domains import Some, domain
 from golc.proofs.questions import Afterwards, Asked, Changed, Compared, Question, Step, terms_of
+from golc.proofs.rigid import is_open
 from golc.proofs.symbols import MOST_CONCRETE, Range
-from golc.theory.border import PythonFunction
 from golc.theory.reading import reached
 from golc.theory.terms import FluentTerm, Operation, Operator, StaticTerm, Term, Variable
 from golc.theory.theory import BasicActionTheory, Effect
@@ -88,24 +87,7 @@ class Weakening:
         return not any((_is_read(part) and _is_vague(part.type)) or self._is_kept_back(part) for part in parts)
 
     def _is_kept_back(self, part: Term) -> bool:
-        return isinstance(part, StaticTerm) and part.static in self._kept_back
-
-    @cached_property
-    def _kept_back(self) -> frozenset[str]:
-        """The statics that call, perhaps through others, Python code that is not executed."""
-        found: set[str] = set()
-        bodies = {name: static.body for name, static in self.theory.statics.items()}
-        more = {name for name, body in bodies.items() if isinstance(body, PythonFunction) and not body.file.trusted}
-        while more:
-            found |= more
-            more = {
-                name
-                for name, body in bodies.items()
-                if name not in found and not isinstance(body, Mapping | PythonFunction)
-                for part in reached(self.theory, [body])
-                if isinstance(part, StaticTerm) and part.static in found
-            }
-        return frozenset(found)
+        return isinstance(part, StaticTerm) and is_open(self.theory.statics[part.static])
 
 
 def _single(steps: Iterable[Step]) -> Iterator[Step]:

@@ -265,23 +265,24 @@ class Compiler:
             return f"{self.bind('extern', guards.extern(static, span))}({', '.join(texts)})"
         if ("static", static.name) not in self._made:
             self._made["static", static.name] = self._made_static(static)
-        return (
-            f"{self._made['static', static.name]}[{''.join(f'{text}, ' for text in texts)}]"
-            if texts
-            else (f"{self._made['static', static.name]}[()]")
-        )
+        name = self._made["static", static.name]
+        if static.reads:
+            return f"{name}({', '.join(['s', *texts])})"
+        return f"{name}[{''.join(f'{text}, ' for text in texts)}]" if texts else f"{name}[()]"
 
     def _made_static(self, static: Static) -> str:
-        """The name of a mapping from argument tuples; that of an expression is filled when it is asked."""
+        """The name of a mapping from argument tuples, which for an expression is filled when it is asked; of a function
+        of state and arguments if the expression reads fluents."""
         if isinstance(static.body, Mapping):
             return self.bind("table", static.body)
-        memo = guards.Memo(static, self._depth)
-        name = self._made["static", static.name] = self.bind("static", memo)  # before its body, which may be recursive
+        calls = guards.Calls(static, self._depth)
+        # Before its body, which may be recursive.
+        name = self._made["static", static.name] = self.bind("static", calls if static.reads else guards.Memo(calls))
         cells = variables(len(static.parameters))
         body = static.body
         assert not isinstance(body, PythonFunction)
         signature = ", ".join(["s", *(cell.text for cell in cells)])
-        memo.function = self.function(signature, [f"return {self.expression(body, cells)}"])
+        calls.function = self.function(signature, [f"return {self.expression(body, cells)}"])
         return name
 
     def _membership(self, element: str, type_: Type, within: Type) -> str:

@@ -7,6 +7,7 @@ from fractions import Fraction
 from itertools import islice
 
 from golc.diagnostics import Span
+from golc.situation.layout import Slots
 from golc.theory import errors
 from golc.theory.border import PythonFunction, extern_value
 from golc.theory.evaluate import DEPTH, MOST_REMEMBERED
@@ -40,29 +41,28 @@ class Positions(dict[Value, int]):
         raise self._failure(value)
 
 
-class Memo(dict[tuple[Value, ...], Value]):
-    """The values of a static function, computed when they are first asked for."""
+class Calls:
+    """Calls of a static function whose body is a term: in a state, with arguments."""
 
     function: Callable[..., Value]
 
     def __init__(self, static: Static, depth: Depth) -> None:
-        super().__init__()
         self._static = static
         self._depth = depth
 
-    def __missing__(self, args: tuple[Value, ...]) -> Value:
+    def __call__(self, state: Slots, *args: Value) -> Value:
         if self._depth.open:
-            return self._compute(args)
+            return self._compute(state, args)
         with deep_recursion(EVALUATION):
-            return self._compute(args)
+            return self._compute(state, args)
 
-    def _compute(self, args: tuple[Value, ...]) -> Value:
+    def _compute(self, state: Slots, args: tuple[Value, ...]) -> Value:
         static, depth = self._static, self._depth
         if depth.open >= DEPTH:
             raise errors.endless(static.span, static.name)
         depth.open += 1
         try:
-            value = self.function((), *args)
+            value = self.function(state, *args)
         except RecursionError:
             raise errors.endless(static.span, static.name) from None
         finally:
@@ -70,6 +70,18 @@ class Memo(dict[tuple[Value, ...], Value]):
         if value not in static.type:
             assert not isinstance(static.body, Mapping | PythonFunction)
             raise errors.value_outside(static.body.span, show_call(static.name, args), value, static.type)
+        return value
+
+
+class Memo(dict[tuple[Value, ...], Value]):
+    """The values of a static function, computed when they are first asked for; they are the same in every state."""
+
+    def __init__(self, calls: Calls) -> None:
+        super().__init__()
+        self._calls = calls
+
+    def __missing__(self, args: tuple[Value, ...]) -> Value:
+        value = self._calls((), *args)
         if len(self) >= MOST_REMEMBERED:
             self.clear()
         self[args] = value

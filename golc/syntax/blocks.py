@@ -50,7 +50,10 @@ def missing_block(failure: Failure) -> Diagnostic | None:
     if failure.accepts != {"_INDENT"} or failure.previous is None or failure.bad is None:
         return None
     word = str(failure.line_before[0]) if failure.line_before else ""
-    empty = {"device": "; without any, leave the colon out", "action": "", "exog": ""}
+    empty = {
+        **dict.fromkeys(("device", "action", "exog"), "; without any, leave the colon out"),
+        **dict.fromkeys(("axiom", "scenario", "interrupts"), ""),
+    }
     return failure.finding(
         Code.MISSING,
         f"the block of this `{word}` is missing",

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, Span
 from golc.syntax.failure import LAYOUT, Failure, Hint
-from golc.syntax.fixes import instead, removal
+from golc.syntax.fixes import instead, removal, sign_at
+from golc.syntax.keywords import AFTER
 from golc.syntax.signs import OPERATORS
 
 WITHOUT_COLON = {
@@ -111,6 +112,10 @@ def effect(failure: Failure) -> Diagnostic | None:
 def bare_values(failure: Failure) -> Diagnostic | None:
     """``type t = a, b``, ``type t = a | b``, ``type t = (a, b)``."""
     match _words(failure), failure.rest[:1]:
+        case ["type", _, "=", *_], "{" if "PLUS" in failure.accepts:
+            gap = failure.gap()
+            message, help = "`+` is missing between two types", "write `+`: it joins types"
+            return failure.finding(Code.MISSING, message, gap, help, fix=sign_at(gap, "+"))
         case ["type", _, "=", *_], "," | "|" | "(" if {"{", "["}.isdisjoint(_words(failure)):
             message = "the values of an enumeration stand in braces"
             return failure.finding(Code.SYNTAX, message, help="write `{a, b}`; `+` joins types")
@@ -122,6 +127,14 @@ def missing_name(failure: Failure) -> Diagnostic | None:
     match _words(failure), failure.kind:
         case ["exog", "from"], "NAME":
             return _nameless(failure, "exog", 0)
+        case ["prune", _, ":", *_], "WHEN":
+            gap = failure.at(failure.line[2].end_pos or 0, failure.line[2].end_pos or 0)
+            message, help = f"`after` is missing before `{failure.line[3]}`", "write `after`"
+            return failure.finding(Code.MISSING, message, gap, help, fix=sign_at(gap, "after"))
+        case ["define", _, "(", word], kind if kind != "COLON" and word in AFTER:
+            gap = _behind(failure, 1)
+            message = f"`:=` is missing after `{failure.line[1]}`"
+            return failure.finding(Code.MISSING, message, gap, "write `:=`", fix=sign_at(gap, ":="))
         case [*_, "after", "when"], "NAME" if "WHEN" in failure.accepts:
             return _nameless(failure, "after", -2)
         case [("for" | "pick") as word, "in"], "NAME":

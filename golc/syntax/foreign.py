@@ -168,7 +168,7 @@ def _sign_at(failure: Failure) -> tuple[int, str] | None:
     starts = {place, *(token.start_pos or 0 for token in failure.tokens[-3:])}
     for sign in sorted((*SIGNS, *PHRASES), key=len, reverse=True):
         for start in range(place, place - len(sign), -1):
-            if sign == "?" and failure.previous is None:
+            if sign == "?" and (failure.previous is None or failure.wants_type):
                 continue
             if start in starts and text.startswith(sign, start) and start + len(sign) >= place + width:
                 return start, sign
@@ -230,6 +230,7 @@ def braces(failure: Failure) -> Diagnostic | None:
     """A block in braces."""
     opens = failure.kind == "LBRACE" and (failure.rest[1:].strip() == "" or "COLON" in failure.accepts)
     opens = opens or (failure.kind == "LBRACE" and failure.begins_line())
+    opens = opens and str(failure.line[:1] and failure.line[0]) not in ("fluent", "static", "extern")
     closes = failure.kind == "RBRACE" and not failure.brackets
     if not opens and not closes:
         return None

@@ -7,11 +7,12 @@ and the open brackets; the first that recognises its own speaks.
 from __future__ import annotations
 
 from golc.diagnostics import Diagnostic
-from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, quantifiers, signs, steps
+from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, lines, quantifiers, signs, steps
 from golc.syntax.failure import Failure, Hint
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
+    *lines.HINTS,
     quantifiers.missing_dot,
     *clauses.HINTS,
     *steps.HINTS,
@@ -19,6 +20,7 @@ HINTS: tuple[Hint, ...] = (
     *blocks.BRACKETS,
     foreign.braces,
     *blocks.LINES,
+    lines.second_on_line,
     *foreign.CHARACTERS,
     quantifiers.missing_quantifier,
     *choices.HINTS,

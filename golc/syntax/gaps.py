@@ -89,6 +89,9 @@ def missing_part(failure: Failure) -> Diagnostic | None:
         return failure.finding(
             Code.MISSING, "this `on some` has no condition", failure.gap(), "write `on some x: type where condition:`"
         )
+    if failure.kind == "ELSE" and "AND" in failure.accepts:
+        message, help = "this `else` in an expression has no `if`", "write `x if condition else y`"
+        return failure.finding(Code.MISSING, message, help=help)
     if failure.accepts == {"ON"}:
         help = "write `on condition:` with a block below it"
         return failure.finding(Code.SYNTAX, "a line of `interrupts` begins with `on`", help=help)
@@ -106,14 +109,20 @@ def missing_operand(failure: Failure) -> Diagnostic | None:
 
 def missing_operator(failure: Failure) -> Diagnostic | None:
     """Two expressions one behind the other."""
+    if failure.accepts == {"IN"} and failure.previous is not None and failure.previous.type == "NOT":
+        message, help = "an operator is missing beside `not`", "write `and not …`, or `not in …`"
+        return failure.finding(Code.MISSING, message, failure.span(failure.previous), help)
     if failure.kind not in STARTS or "AND" not in failure.accepts or failure.previous is None:
         return None
     between = "an operator or a comma" if "COMMA" in failure.accepts else "an operator"
+    help = "write what joins them" + ("" if failure.brackets else ", or begin another line")
+    if "WHEN" in failure.accepts:
+        help = "write `when` before a condition, or what joins them"
     return failure.finding(
         Code.MISSING,
         f"{between} is missing between `{failure.previous}` and `{failure.bad}`",
         failure.gap(),
-        "write what joins them" if failure.brackets else "one statement, one clause a line",
+        help,
     )
 
 

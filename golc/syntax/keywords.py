@@ -21,6 +21,8 @@ def no_declaration(failure: Failure) -> Diagnostic | None:
         return None
     word = re.match(r"[A-Za-z]\w*|", failure.rest)
     found = word.group() if word else ""
+    if failure.kind == "INT" and re.match(r"\d+[ \t]*(\.\.)?[ \t]*[A-Za-z]", failure.rest):
+        return _lost_binding(failure, failure.here())
     if failure.kind == "_INDENT" or not found:
         return None
     span = failure.at(failure.place, failure.place + len(found))
@@ -38,8 +40,13 @@ def no_declaration(failure: Failure) -> Diagnostic | None:
         return failure.finding(Code.SYNTAX, message, span, help, fix=fix)
     if re.search(r"\.[ \t]*(%.*)?$", failure.rest):
         return _prolog(failure)
+    if re.match(r"(set[ \t]+\w+[ \t]+[\d(]|.*\bby[ \t]+(call|start|prompt)\b)", failure.rest):
+        return _lost_binding(failure, span)
     kinds = ", ".join(f"`{kind}`" for kind in DECLARATIONS[1:])
-    return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, f"a declaration begins with {kinds}")
+    help = f"a declaration begins with {kinds}"
+    if re.match(r"\w+[ \t]*(\(.*\))?[ \t]*(#|$)", failure.rest):
+        help = "a call is indented below its `proc`; " + help
+    return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, help)
 
 
 def _prolog(failure: Failure) -> Diagnostic:
@@ -49,6 +56,11 @@ def _prolog(failure: Failure) -> Diagnostic:
         failure.at(failure.place, failure.place + len(failure.rest)),
         "begin a declaration with its kind: `fluent`, `action`, `exog`, `proc`, …",
     )
+
+
+def _lost_binding(failure: Failure, span: Span) -> Diagnostic:
+    message = "this line of a `device` stands in the first column, outside of any declaration"
+    return failure.finding(Code.INDENTATION, message, span, "indent it below its `device`")
 
 
 def _lost_line(failure: Failure, word: str) -> Diagnostic:
@@ -70,7 +82,8 @@ def misspelt(failure: Failure) -> Diagnostic | None:
     last = failure.tokens[-1] if failure.tokens else None
     if last is None or last.type != "NAME" or str(last) in _words(failure.chosen_from):
         return None
-    return _misspelt(failure, last, failure.chosen_from)
+    # Behind `waiting` the line ends, so that it was not meant where the line goes on.
+    return _misspelt(failure, last, failure.chosen_from - {"_WAITING"})
 
 
 def _misspelt(failure: Failure, token: Token | None, accepts: frozenset[str]) -> Diagnostic | None:
@@ -92,6 +105,10 @@ def reserved(failure: Failure) -> Diagnostic | None:
     last = failure.tokens[-1] if failure.tokens else None
     if last is None or str(last) not in AFTER:
         return None
+    table = failure.brackets and failure.brackets[-1].type == "LBRACE"
+    if failure.kind == "COLON" and "x: type" in AFTER[str(last)] and not table:
+        message, help = f"a variable is missing after `{last}`", f"write `{last} x: type. …`"
+        return failure.finding(Code.MISSING, message, failure.gap(), help)
     if failure.kind == "LPAR":
         message, help = f"`{last}` is no function", f"after it stands {AFTER[str(last)]}"
         return failure.finding(Code.SYNTAX, message, failure.span(last), help)

@@ -11,7 +11,7 @@ from golc.syntax.failure import Failure
 from golc.syntax.keywords import closest
 from golc.syntax.layout import split
 from golc.syntax.pieces import Piece, parse_piece
-from golc.syntax.words import DECLARATIONS
+from golc.syntax.words import CLAUSES, DECLARATIONS, STATEMENTS
 
 _CONTENT = re.compile(r"^[ \t]*([A-Za-z]\w*|[^\s#])", re.MULTILINE)
 
@@ -28,9 +28,7 @@ def recover(source: Source, findings: Findings) -> ast.File | None:
         help = "is this a file of golc? Such a file begins with a line such as `domain delivery`"
         findings.error(Code.DOMAIN, message, _word_span(pieces[0]), help=help)
         return None
-    _check_domain(pieces, findings)
-    # A name alone where the file begins is a domain line without its word, and that has been said.
-    _merge(read[1:] if _only_name(pieces[0]) else read, findings)
+    _merge(read[1:] if _check_domain(pieces, findings) else read, findings)
     nodes = [piece.node for piece in pieces if piece.node is not None]
     domain = next((node for node in nodes if isinstance(node, ast.Ident)), None)
     declarations = tuple(node for node in nodes if not isinstance(node, ast.Ident))
@@ -63,8 +61,8 @@ def _nothing(source: Source, findings: Findings) -> None:
     findings.error(Code.DOMAIN, what, Span(source, 0, 0), help=help)
 
 
-def _check_domain(pieces: list[Piece], findings: Findings) -> None:
-    """The domain line is there, the first, and the only one."""
+def _check_domain(pieces: list[Piece], findings: Findings) -> bool:
+    """The domain line is there, the first, and the only one; true if all is said of a first line in its place."""
     headers = [piece for piece in pieces if _first_word(piece.part) == "domain"]
     first = pieces[0]
     if not headers:
@@ -72,7 +70,9 @@ def _check_domain(pieces: list[Piece], findings: Findings) -> None:
             example = _only_name(first) or "delivery"
             help = f"begin the file with a line such as `domain {example}`"
             findings.error(Code.DOMAIN, "the domain line is missing", _word_span(first), help=help)
-        return
+            word = _first_word(first.part)
+            return word not in (*DECLARATIONS, *CLAUSES, *STATEMENTS) and closest(word, DECLARATIONS) is None
+        return False
     if headers[0] is not first:
         message = "the domain line is not the first"
         findings.error(Code.DOMAIN, message, _word_span(headers[0]), help="move it to the beginning of the file")
@@ -84,6 +84,7 @@ def _check_domain(pieces: list[Piece], findings: Findings) -> None:
             help="a file describes one domain: remove the line, or `import` another file",
             labels=(Label(_word_span(headers[0]), "the first one"),),
         )
+    return False
 
 
 def _is_foreign(pieces: list[Piece]) -> bool:

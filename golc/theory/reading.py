@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import cast
 
-from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, PossTerm, Term, children
+from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, PossTerm, StaticTerm, Term, children
 from golc.theory.theory import BasicActionTheory
 
 
 def reached(theory: BasicActionTheory, terms: Iterable[Term], *, into_knowledge: bool = True) -> Iterator[Term]:
-    """Some terms and all inside them, with the bodies of definitions and preconditions, each of these once.
+    """Some terms and all inside them, with the bodies of definitions and preconditions, each of these once, and of
+    statics that read fluents.
 
     ``into_knowledge``: also what stands inside ``known``, ``knows`` and ``possible``.
     """
@@ -25,6 +27,9 @@ def reached(theory: BasicActionTheory, terms: Iterable[Term], *, into_knowledge:
             case PossTerm(action=name) if f"action {name}" not in seen:
                 seen.add(f"action {name}")
                 stack.extend(theory.actions[name].preconditions)
+            case StaticTerm(static=name) if theory.statics[name].reads and f"static {name}" not in seen:
+                seen.add(f"static {name}")
+                stack.append(cast(Term, theory.statics[name].body))
             case Epistemic() if not into_knowledge:
                 continue
         stack.extend(children(term))

@@ -8,7 +8,7 @@ Terms are compared by structure; spans and the names of variables take no part.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 from typing import Literal as OneOf
 from typing import TypeAlias
@@ -273,3 +273,33 @@ def children(term: Term) -> tuple[Term, ...]:
 def ranges(binders: tuple[Binder, ...]) -> tuple[Term, ...]:
     """The collections that binders run over."""
     return tuple([binder.within for binder in binders if binder.within is not None])
+
+
+def with_children(term: Term, inside: tuple[Term, ...]) -> Term:
+    """The term with others in place of its ``children``."""
+    match term:
+        case FluentTerm() | StaticTerm() | DefinedTerm() | PossTerm() | Operation():
+            return replace(term, args=inside)
+        case Membership():
+            return replace(term, element=inside[0])
+        case Quantified(where=where):
+            found = None if where is None else inside[-2]
+            return replace(term, binders=_with_ranges(term.binders, inside), where=found, body=inside[-1])
+        case Comprehension(where=where):
+            found = None if where is None else inside[-2]
+            return replace(term, binders=_with_ranges(term.binders, inside), where=found, element=inside[-1])
+        case Display():
+            return replace(term, elements=inside)
+        case Text(parts=parts):
+            rest = iter(inside)
+            return replace(term, parts=tuple([part if isinstance(part, str) else next(rest) for part in parts]))
+        case Epistemic() | Before():
+            return replace(term, body=inside[0])
+        case _:
+            return term
+
+
+def _with_ranges(binders: tuple[Binder, ...], within: tuple[Term, ...]) -> tuple[Binder, ...]:
+    """Binders that run over other collections, the first ones of some terms."""
+    rest = iter(within)
+    return tuple([binder if binder.within is None else replace(binder, within=next(rest)) for binder in binders])

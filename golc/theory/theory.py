@@ -39,11 +39,15 @@ class Constant(Declared):
 @dataclass(frozen=True)
 class Static(Declared):
     """A function that never changes: a term over the parameters, a table from argument tuples to values, or a function
-    of Python (``extern``)."""
+    of Python (``extern``).
+
+    ``reads``: whether its body reads fluents, which only stand for functions of Python there (``golc.proofs.rigid``).
+    """
 
     parameters: tuple[Parameter, ...]
     type: Type
     body: Term | Mapping[tuple[Value, ...], Value] | PythonFunction
+    reads: bool = False
 
 
 @dataclass(frozen=True)

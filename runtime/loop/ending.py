@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from golc.diagnostics import Code, DeviceError, GolcError, ProgramError
+from golc.diagnostics import Code, DeviceError, GolcError, ProgramError, UserError
 from golc.runtime.devices.base import Device
 from golc.runtime.loop.happenings import End
 from golc.runtime.loop.inbox import Source
@@ -19,6 +19,8 @@ def verdict_on(error: BaseException) -> tuple[End, str]:
             return End.FAILED, diagnostic.message
         case DeviceError():
             return End.DEVICE, str(error)
+        case UserError(diagnostics=(first, *_)):
+            return End.FAILED, first.message
         case GolcError():
             return End.FAILED, str(error)
         case KeyboardInterrupt():

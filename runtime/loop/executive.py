@@ -92,7 +92,8 @@ class Executive(Intake):
     def run(self) -> Outcome:
         """Execute the program to its end; the devices are told to stop whatever happens. An executive runs once.
 
-        Raises ``ProgramError`` if the program fails and ``DeviceError`` if the world does.
+        Raises ``ProgramError`` if the program fails, ``UserError`` if no device does an action that it has come to, and
+        ``DeviceError`` if the world fails.
         """
         opened: list[Device] = []
         try:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from html.parser import HTMLParser
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -107,6 +108,60 @@ def test_a_theory_shows_what_it_declares(evil: golc.Theory) -> None:
     assert shown[shown.index("look") + 1] == "senses colour"
     assert shown[shown.index("happens") + 1] == "exogenous"
     assert shown[-7:] == ["procedure", "control", "device", "file", "host", "eyes.py", "2 lines"]
+
+
+EMBEDDED = """from golc.embed import Theory, causes, interval, poss
+theory = Theory("lift")
+at = theory.fluent("at", interval(1, 3), 1)
+@theory.action
+def up():
+    poss(at < top)
+    causes(at, at + 1)
+"""
+
+
+def test_a_theory_in_python_shows_what_is_loaded_of_it(tmp_path: Path) -> None:
+    names: dict[str, Any] = {}
+    path = tmp_path / "lift.py"
+    path.write_text(EMBEDDED)
+    exec(compile(EMBEDDED, str(path), "exec"), names)
+    theory = names["theory"]
+
+    assert texts(theory._repr_html_()) == [
+        *("lift", f" ({path}): not finished, 1 finding"),
+        *("declared so far", "fluent", "at"),
+        f"error[GL012]: `top` is neither a Python constant nor declared\n --> {path}:6:15\n  |\n"
+        "6 |     poss(at < top)\n  |               ^^^\n"
+        "  = help: assign it, declare it with the theory, or import it from `golc.embed`",
+    ]
+    assert str(theory).splitlines()[:4] == [
+        f"domain lift ({path}): not finished, 1 finding",
+        "",
+        "declared so far",
+        "  fluent         at",
+    ]
+
+    names["top"] = 3
+
+    assert theory._repr_html_() == golc.load(theory)._repr_html_()
+    assert str(theory) == str(golc.load(theory))
+
+
+def test_a_theory_in_python_is_shown_without_its_helpers(tmp_path: Path) -> None:
+    text = (
+        "from golc.embed import Theory\ntheory = Theory('d')\n"
+        "@theory.extern(file='helpers.py')\ndef f(n: int) -> int: ...\n"
+        "@theory.const\ndef c():\n    return f(1)\n"
+    )
+    names: dict[str, Any] = {}
+    (tmp_path / "helpers.py").write_text("raise SystemExit\ndef f(n): pass\n")
+    (tmp_path / "d.py").write_text(text)
+    exec(compile(text, str(tmp_path / "d.py"), "exec"), names)
+
+    shown = texts(names["theory"]._repr_html_())
+
+    assert shown[2:7] == ["declared so far", "const", "c", "static", "f"]
+    assert "helpers.py is not executed" in shown[7]
 
 
 def test_a_plan_is_a_numbered_tree(evil: golc.Theory) -> None:

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import doctest
 import importlib
+import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -149,11 +151,37 @@ def test_what_cannot_be_run_is_a_user_error_whatever_is_checked(
     assert caught.value.diagnostics[0].message == message
 
 
-def test_settings_that_make_no_sense_are_refused(counter: golc.Theory) -> None:
-    with pytest.raises(ValueError, match="the speed is 0, and has to be from"):
-        golc.run(counter, speed=0)
-    with pytest.raises(ValueError, match="not for one at a port"):
-        golc.run(counter, port="/dev/null", world="room.toml")
+@pytest.mark.parametrize(
+    ("options", "problem"),
+    [
+        ({"speed": 0}, "the speed is 0, and has to be from 0.01 to 1000"),
+        ({"stop_when_idle": -1}, "stop_when_idle is -1, and has to be a number of seconds from 0"),
+        ({"stop_when_idle": float("nan")}, "stop_when_idle is nan, and has to be a number of seconds from 0"),
+        ({"listen": ("127.0.0.1", 65536)}, "the port to listen at is 65536, and has to be from 0 to 65535"),
+        ({"on_failure": "wait"}, "on_failure is 'wait', and has to be one of ask, retry, next, stop"),
+        (
+            {"port": "/dev/null", "world": "room.toml"},
+            "a world and a picture are for a simulated brick, not for one at a port",
+        ),
+    ],
+)
+def test_options_that_make_no_sense_are_refused(counter: golc.Theory, options: Any, problem: str) -> None:
+    with pytest.raises(ValueError, match=f"^{re.escape(problem)}$"):
+        golc.run(counter, **options)
+
+
+def test_a_run_remembers_as_much_as_it_is_told(counter: golc.Theory) -> None:
+    run = golc.run(counter, events=STOP, speed=100, remember=2)
+    assert [str(entry) for entry in run.history] == ["stop", "add(3)"]
+    assert (run.done, run.happened, run.messages) == (3, 1, ("seen light",))
+    assert "after 3 actions and 1 exogenous action" in run.summary()
+
+
+def test_an_action_without_a_device_ends_a_run_with_one_line(tmp_path: Path) -> None:
+    (tmp_path / "handless.gl").write_text("domain handless\naction grab\nproc control:\n    grab\n")
+    run = golc.run(golc.load(tmp_path / "handless.gl"), check=False)
+    assert (run.end, run.message) == (golc.End.FAILED, "no device performs `grab`")
+    assert isinstance(run.error, golc.UserError)
 
 
 ASKED = """domain asked

@@ -20,7 +20,7 @@ from golc.runtime.rcxsim.surroundings import Bench
 from golc.runtime.rcxsim.trace import Record, Trace
 from tests.bench.machine import program
 from tests.bench.measure import Row, Unit
-from tests.conftest import VirtualPort
+from tests.rcxsim.virtual_port import VirtualPort
 
 START = 2
 """The number of an action that is answered as soon as its task has been started."""

@@ -22,7 +22,7 @@ from golc.runtime.rcxsim.surroundings import Bench
 from golc.runtime.rcxsim.trace import Trace
 from tests.bench.measure import Row, Unit
 from tests.bench.startup import DELIVERY
-from tests.conftest import VirtualPort
+from tests.rcxsim.virtual_port import VirtualPort
 
 SIGNAL = 1
 """The number of an action that takes half a second on the brick."""

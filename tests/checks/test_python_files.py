@@ -52,7 +52,7 @@ def test_what_depends_on_a_function_is_not_decided_without_trust(examined: Check
 
     (finding,) = found.findings
     assert (finding.code, finding.severity) == (Code.NOT_DECIDED, Severity.NOTE)
-    assert finding.message == "what depends on `near` is not decided: its file is not executed"
+    assert finding.message == "not all that depends on `near` is decided: its file is not executed"
     assert (finding.span.line, finding.span.text) == (7, "near")
     assert finding.help == "`--trust` would decide it: it executes the file"
     assert found.undecided > 1
@@ -111,7 +111,7 @@ def test_the_solver_has_a_table_of_the_function(examined: Check) -> None:
     assert examined(LARGE.format(more="when a * b != c + next(at)"), python, trust=True).findings == ()
     wrong = examined(LARGE.format(more="+ 1 when a * b != c + next(at)"), python, trust=True)
     assert [finding.code for finding in wrong.findings] == [Code.EFFECT_FAILS]
-    undecided = examined(LARGE.format(more="when a * b != c + next(at)"), python)
+    undecided = examined(LARGE.format(more="+ 1 when a * b != c + next(at)"), python)
     assert {finding.code for finding in undecided.findings} == {Code.NOT_DECIDED}
 
 

@@ -328,6 +328,63 @@ def test_the_values_of_a_type_can_be_kept_in_lists_and_counted(text_of: Text) ->
     )
 
 
+def test_a_star_spreads_a_list_of_python(text_of: Text) -> None:
+    text = text_of(
+        """
+        from __future__ import annotations
+        from golc.embed import Theory, causes, enum, interval
+
+        theory = Theory("d")
+        NAMES = ["Bonn", "Essen"]
+        floor = theory.type("floor", interval(1, 6))
+        at = theory.fluent("at", floor, 1)
+        ARGS = (2, 3)
+
+        @theory.fluent
+        def seen(t: enum(*NAMES)):
+            return False
+
+        @theory.action
+        def go(n: floor, m: floor):
+            causes(at, max(m, *ARGS))
+
+        @theory.proc
+        def control():
+            go(*ARGS)
+            for n in [1, *ARGS]:
+                go(n, n)
+
+        @theory.define
+        def d():
+            return at in {*ARGS, 6}
+        """
+    )
+
+    assert "fluent seen(t: {Bonn, Essen}) = false\n" in text
+    assert "causes at := max(m, 2, 3)\n" in text
+    assert "    go(2, 3)\n    for n in [1, 2, 3]:\n" in text
+    assert "define d := at in {2, 3, 6}\n" in text
+
+
+def test_python_may_compare_symbols(text_of: Text) -> None:
+    text = text_of(
+        """
+        from golc.embed import Theory, enum, symbols
+
+        theory = Theory("d")
+        colour = theory.type("colour", enum("red", "green", "blue"))
+        pairs = [f"{a}_{b}" for a in colour for b in colour if a != b]
+        left = [each for each in colour if each == colour.green or each in (colour.red,)]
+        where = list(colour).index(colour.blue)
+        by_name = {symbols("red"): 5}[colour.red]
+        theory.const("how_many", len(pairs) + len(left) * 10 + where * 100 + by_name * 1000)
+        theory.goal("g", colour.red == colour.red)
+        """
+    )
+
+    assert text == "domain d\n\ntype colour = {red, green, blue}\n\nconst how_many = 5226\n\ngoal g: red = red\n"
+
+
 TOWNS = """
 from golc.embed import Theory, causes, enum, poss
 
@@ -361,7 +418,7 @@ at = theory.fluent("at", town, town.Bonn)
         (
             'theory.type("town", enum("Bad Godesberg"))',
             "`Bad Godesberg` cannot be a name",
-            'enum("Bad Godesberg")',
+            '"Bad Godesberg"',
             "begin it with a letter and go on with letters (without accents), digits and `_`, as in `Bad_Godesberg`",
         ),
     ],
@@ -386,6 +443,26 @@ def test_a_table_from_a_file_is_told_what_is_missing(
             '`Path(__file__).with_name("theory.py")` is the file beside this one, wherever golc is run',
         ),
         ('open("nowhere.csv")', None),
+        ("from golc.embed import Theory\ninterval(1, 6)", "import it: `from golc.embed import interval`"),
+        ("stations = 3\nstation", "did you mean `stations`?"),
+        ("import math\nmath.flor(1)", "did you mean `floor`?"),
+        (
+            "from golc.embed import Theory\nt = Theory('t')\n{1: 2}[t.fluent('at', int, 1)]",
+            "a term has no value yet: make the dictionary a static, whose value is a table",
+        ),
+        ("from golc.embed import Theory\nt = Theory('t')\nt.flunt('at', int, 1)", "did you mean `fluent`?"),
+        ("from golc.embed import Theory\nt = Theory('t')\nt.fluent('at', int, inital=1)", "did you mean `initial`?"),
+        (
+            "from golc.embed import Theory\nt = Theory('t')\nt.fluent('at', int, 1, 2)",
+            "it takes `type`, `initial`, `name=`, `parameters=`",
+        ),
+        (
+            "from golc.embed import Theory\nt = Theory('t')\n@t.extern\ndef f() -> int: ...",
+            "write `theory.extern(file=…)`",
+        ),
+        ("from golc.embed import Theory, interval\ninterval(1)", "it takes `low`, `high`"),
+        ("from golc.embed import Theory\nTheory()", "it takes `domain`"),
+        ("from golc.embed import enum\nenum(['a', 'b'])", "write `enum(*names)` for all that a list has"),
         (
             "from golc.embed import Theory\ndef lifts(n):\n    return Theory('lifts')",
             "call the function that makes it where every import runs it: `theory = delivery(6)`",

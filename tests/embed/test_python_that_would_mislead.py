@@ -161,6 +161,14 @@ def test_what_python_raises_is_said_in_one_line(wrong_with: Wrong, code: str, pl
     ("code", "place", "message"),
     [
         ("N = 3\n" + _in_define("(yield N)"), "yield N", "`yield` has no meaning in a theory"),
+        ("ARGS = {hall}\n" + _in_define("light(*ARGS)"), "*ARGS", "`*` spreads only lists of Python"),
+        (_in_define("light(*at)"), "*at", "`*` spreads only lists of Python"),
+        ("x = theory.import_(3)\n", "3", "a Python value of type `int` is no path of a file"),
+        (
+            "@theory.device('host', file=3)\ndef d():\n    pass\n",
+            "3",
+            "a Python value of type `int` is no path of a file",
+        ),
         ("N = 10**5000\n" + _in_define("power == N"), "N", "a number of so many digits is too long: the limit is 4000"),
         (
             _in_define("power == 1e9999999"),
@@ -245,6 +253,13 @@ def test_the_body_of_a_function_does_not_see_the_names_of_the_class_around_it(te
             "theory.define(json.dumps)",
             "only a function written with `def` can be translated",
         ),
+        ("@theory.device\ndef d():\n    pass\n", "theory.device", "a device needs its kind"),
+        ("@theory.axiom\ndef light(r):\n    pass\n", "theory.axiom", "an axiom needs its fluent"),
+        (
+            '@theory.action("fly")\ndef fly():\n    pass\n',
+            'theory.action("fly")',
+            "the name of what is declared is that of its function, or given by `name=`",
+        ),
         ("@theory.axiom(3)\ndef a():\n    pass\n", "theory.axiom(3)", "a Python value of type `int` cannot be a name"),
     ],
 )
@@ -302,6 +317,31 @@ def test_what_has_no_end_or_no_values_is_said_at_its_place(
     (found,) = wrong_with(THEORY + code)
 
     assert (found.span.text, found.message) == (place, message)
+
+
+def test_the_answer_of_python_to_a_question_about_its_objects_is_a_value(text_of: Text) -> None:
+    text = text_of(
+        THEORY
+        + """
+def lamp(name, start, switch=None):
+    theory.fluent(name, initial=start in ("on", "bright"))
+    theory.fluent(name + "_by_hand", initial=switch is None)
+
+lamp("lamp", "on", None)
+theory.fluent("named", initial=bool(at is not None))
+"""
+    )
+
+    assert text.endswith("fluent lamp = true\nfluent lamp_by_hand = true\nfluent named = true\n")
+
+
+def test_one_line_of_python_that_makes_many_mistakes_is_one_finding(tmp_path: Path) -> None:
+    path = tmp_path / "t.py"
+    sizes = 'theory.static("size", int, {r: 0.5 for r in room}, parameters={"r": room})\n'
+    path.write_text(THEORY + sizes, encoding="utf-8")
+    (found,) = (each for each in examine(path).findings if each.code is Code.TYPE_MISMATCH)
+
+    assert found.span.text == "{r: 0.5 for r in room}"
 
 
 def test_a_large_real_is_written_in_full(text_of: Text) -> None:

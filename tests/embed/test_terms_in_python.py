@@ -86,6 +86,26 @@ def test_types_are_objects(text_of: Callable[[str], str], python: str, text: str
     assert f"type t = {text}\n" in text_of(f'{HEAD}\ntheory.type("t", {python})\n')
 
 
+def test_unions_of_unions_are_one_in_annotations(text_of: Callable[[str], str]) -> None:
+    text = text_of(
+        f"from __future__ import annotations\n{HEAD}\n@theory.fluent\n"
+        "def f(a: union(phase | enum('idle'), floor), b: optional(union('phase', floor)), c: union(phase, None)): ...\n"
+    )
+
+    assert text.endswith("fluent f(a: phase + {idle} + floor, b: phase + floor?, c: phase?)\n")
+
+
+def test_a_symbol_may_have_any_name(text_of: Callable[[str], str]) -> None:
+    text = text_of(
+        f"{HEAD}\nkind = theory.type('kind', enum('name', 'value', 'node', 'symbols'))\n"
+        "for each in (kind.name, kind.value, kind.node, kind.symbols):\n    theory.initially(each == kind.node)\n"
+    )
+
+    assert text.endswith(
+        "initially name = node\ninitially value = node\ninitially node = node\ninitially symbols = node\n"
+    )
+
+
 @pytest.mark.parametrize(
     ("line", "place", "code", "message", "help_"),
     [
@@ -93,21 +113,57 @@ def test_types_are_objects(text_of: Callable[[str], str], python: str, text: str
         ('theory.goal("g", lit(1) or lit(2))', (18, 16), "GL142", "`or` asks a term for its truth", "`(…) | (…)`"),
         ('theory.goal("g", not lit(1))', (18, 10), "GL142", "`not` asks a term for its truth", "`~(…)`"),
         ('theory.goal("g", 1 <= at <= 6)', (18, 12), "GL142", "a chain of comparisons", "(a <= x) & (x <= b)"),
-        ("if at == 1: pass", (4, 7), "GL142", "ask a term for its truth", "`&`, `|` and `~`"),
-        ("x = 1 if lit(1) else 2", (5, 18), "GL142", "ask a term for its truth", "`&`, `|` and `~`"),
-        ("min(at, at + 1)", (1, 15), "GL142", "ask a term for its truth", "translated function"),
+        ('theory.goal("g", at == 1 | at == 2)', (18, 17), "GL142", "a chain of comparisons", "(a == x) & (b == y)"),
+        ("if at == 1: pass", (4, 7), "GL142", "`if` asks a term for its truth", "decides it once"),
+        ("x = 1 if lit(1) else 2", (10, 6), "GL142", "`… if … else …` asks a term", "decides it once"),
+        ("while lit(1):\n    pass", (7, 6), "GL142", "`while` asks a term for its truth", "decides it once"),
+        ("if not lit(1):\n    pass", (4, 10), "GL142", "`not` asks a term for its truth", "`~(…)`"),
+        ("assert lit(1)", (8, 6), "GL142", "`assert` asks a term", "decides it once"),
+        ("[n for n in floor if lit(n)]", (22, 6), "GL142", "`if` asks a term", "decides it once"),
+        ("min(at, at + 1)", (1, 15), "GL142", "`min` asks a term for its truth", "translated function"),
+        ("any(lit(n) for n in floor)", (1, 26), "GL142", "`any` asks a term", "`exists(station, lambda n: …)`"),
+        ("for n in floor: n == at and print(n)", (17, 20), "GL142", "`and` asks a term", "`(…) & (…)`"),
+        ("filter(None, [at]).__next__()", (1, 29), "GL142", "`__next__` asks a term", None),
         ('theory.goal("g", at in floor)', (18, 11), "GL143", "`in` answers at once", "translated function"),
+        ('theory.goal("g", at in {1, 2})', (18, 12), "GL143", "`in` answers at once", "translated function"),
+        ('theory.goal("g", at not in [1, 2])', (18, 16), "GL143", "`in` answers at once", "translated function"),
+        ('theory.goal("g", at in ())', (18, 8), "GL143", "`in` answers at once", "translated function"),
+        ('theory.goal("g", at is None)', (18, 10), "GL143", "`is` asks for one object", "write `==`;"),
+        ('theory.goal("g", at is not None)', (18, 14), "GL143", "`is` asks for one object", "write `!=`;"),
+        ('theory.goal("g", (at is None) & lit(1))', (19, 10), "GL143", "`is` asks for one object", "bool(at is None)"),
+        ("theory.initially(lit is None)", (18, 11), "GL143", "`is` asks for one object", None),
+        ('theory.goal("g", at / 2 == 1)', (18, 6), "GL143", "`/` has no meaning on terms", "`//`"),
+        ('theory.goal("g", 2**at == 1)', (18, 5), "GL143", "`**` has no meaning on terms", "multiply"),
+        ('theory.goal("g", lit(1) ^ lit(2))', (18, 15), "GL143", "`^` has no meaning on terms", "`!=`"),
+        (
+            'theory.goal("g", [5, 6][at] == 1)',
+            (18, 10),
+            "GL143",
+            "Python asks for the number",
+            "make the list a static",
+        ),
+        ("range(at)", (1, 9), "GL143", "Python asks for the number", "`interval(1, n)`"),
+        ("int(at)", (1, 7), "GL143", "Python asks for the number", "extern"),
+        ("lit[1] = True", (1, 6), "GL143", "only actions change a fluent", "`causes(f(x), value)`"),
         ('theory.goal("g", len(at) == 1)', (18, 7), "GL143", "`len` answers at once", "translated function"),
         ("for x in at: pass", (1, 17), "GL143", "go through a term", None),
         ('theory.goal("g", at == object())', (24, 8), "GL144", "type `object` means nothing", "can stand here"),
         ('theory.goal("g", lit({}))', (22, 2), "GL144", "a dictionary means nothing", "table"),
         ('theory.goal("g", lit(g=1))', (18, 8), "GL015", "no parameter `g`", "`f`"),
         ('theory.goal("g", at == float("nan"))', (24, 12), "GL144", "nan is no number", None),
-        ('theory.goal("some", lit(1))', (1, 27), "GL006", "word of the language", "the_some"),
-        ('theory.goal("1st", lit(1))', (1, 26), "GL143", "cannot be a name", "begin it with a letter"),
-        ('theory.type("t", {"a", "b"})', (1, 28), "GL144", "no type of the language", "`enum(…)`"),
+        ('theory.goal("some", lit(1))', (13, 6), "GL006", "word of the language", "the_some"),
+        ('theory.goal("1st", lit(1))', (13, 5), "GL143", "cannot be a name", "begin it with a letter"),
+        ('theory.type("t", {"a", "b"})', (18, 10), "GL144", "no type of the language", "`enum(…)`"),
+        ('theory.type("t", union())', (18, 7), "GL143", "no type to be joined", "`station | None`"),
+        ('theory.type("t", optional(None))', (18, 14), "GL143", "no type to be joined", "`station | None`"),
         ('theory.type("t", location)', (18, 8), "GL141", "NameError: name 'location' is not defined", None),
-        ('theory.type("t", list)', (1, 22), "GL143", "needs the type of its elements", "set[station]"),
+        ('theory.type("t", enum("a", "b c"))', (28, 5), "GL143", "cannot be a name", "`b_c`"),
+        ('theory.type("t", interval(1, 2.5 + 3j))', (30, 8), "GL144", "type `complex` means nothing", None),
+        ('symbols("a", "b c")', (14, 5), "GL143", "cannot be a name", "`b_c`"),
+        ('theory.fluent("f", 3, 1)', (20, 1), "GL144", "no type of the language", None),
+        ('theory.fluent("f", initial=1, parameters={"n": 3})', (42, 8), "GL144", "no type of the language", None),
+        ('Theory("my lift")', (8, 9), "GL143", "cannot be a name", "`my_lift`"),
+        ('theory.type("t", list)', (18, 4), "GL143", "needs the type of its elements", "set[station]"),
         ('theory.const("c")', (1, 17), "GL143", "a value is missing", None),
         ("test(at == 1)", (1, 13), "GL143", "`test` is not run by Python", "`@theory.proc`"),
         ("values(floor)", (1, 13), "GL143", "`values` is not run by Python", "translated function"),

@@ -48,7 +48,7 @@ def test_everything_is_fixed_that_can_be_and_told(folder: Path, capsys: Captured
         "fixed a.gl:3:1 GL005: a comment begins with `#`, not `//`",
         "fixed a.gl:4:10 GL004: the colon at the end of this `action` is missing",
         "fixed a.gl:5:12 GL005: equality is `=`, not `==`",
-        "fixed a.gl:5:16 GL005: conjunction is `and`, not `&&`",
+        "fixed a.gl:5:17 GL005: conjunction is `and`, not `&&`",
         "fixed a.gl:5:20 GL005: negation is `not`, not `!`",
         "fixed a.gl:6:14 GL005: `=` tests, `:=` changes: an effect is written with `:=`",
         "fixed a.gl:6:18 GL005: a line does not end in a full stop",
@@ -60,7 +60,7 @@ def test_everything_is_fixed_that_can_be_and_told(folder: Path, capsys: Captured
 def test_without_the_option_the_summary_offers_it(folder: Path, capsys: Captured) -> None:
     (folder / "a.gl").write_text(SLIPS)
     assert invoke(["check", "a.gl"]) == 1
-    assert capsys.readouterr().err == "checked 1 file: 3 errors; --fix would fix 3 of them\n"
+    assert capsys.readouterr().err == "checked 1 file: 7 errors; --fix would fix 7 of them\n"
     assert (folder / "a.gl").read_text() == SLIPS
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import io
+import itertools
 import json
 import random
 import re
@@ -12,7 +13,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 from golc.cli import invoke
-from golc.diagnostics import Findings, Severity, Source, UserError
+from golc.diagnostics import Diagnostic, Findings, Severity, Source, UserError
 from golc.loading import Examined, examine
 from golc.rendering import render, to_json
 from golc.reporting import sarif
@@ -57,7 +58,7 @@ def every_stage(path: Path, rng: random.Random, clock: Clock) -> Examined:
     with clock.stage("examine"):
         examined = examine(path, proofs=True)
     with clock.stage("show"):
-        _show(examined)
+        show(examined)
     with clock.stage("fmt"):
         _lay_out(path)
     with clock.stage("fix"):
@@ -72,19 +73,38 @@ def every_stage(path: Path, rng: random.Random, clock: Clock) -> Examined:
     return examined
 
 
-def _show(examined: Examined) -> None:
-    if examined.theory is None and all(finding.severity is not Severity.ERROR for finding in examined.findings):
-        raise FaultError("no theory, and no error that says why")
+def show(examined: Examined) -> None:
+    """Show every finding in every form; there is an error if there is no theory, and each stands at its place."""
+    if (examined.theory is None) != any(finding.severity is Severity.ERROR for finding in examined.findings):
+        raise FaultError("no theory, and no error that says why, or a theory with an error")
     found = heed(examined, True)
+    for findings, source in itertools.product((examined.findings, found), examined.sources):
+        starts = [finding.span.start for finding in findings if finding.span.source is source]
+        if starts != sorted(starts):
+            raise FaultError(f"not in the order of the places: {findings}")
     for finding in found:
-        span = finding.span
-        if not 0 <= span.start <= span.end <= len(span.source.text) or not finding.message:
-            raise FaultError(f"no place or no message: {finding}")
+        _check_place(finding)
         for color in (False, True):
             render(finding, color)
         annotation(finding)
         json.dumps(to_json(finding))
     json.dumps(sarif.log(found, {"errors": 0, "warnings": 0, "questions": 0, "undecided": 0}))
+
+
+def _check_place(finding: Diagnostic) -> None:
+    """The line and the column that are shown are those of the offset, counted here anew."""
+    text, place = finding.span.source.text, to_json(finding)["span"]
+    before, shown = text[: finding.span.start], render(finding)
+    line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+    if not 0 <= finding.span.start <= finding.span.end <= len(text) or (place["line"], place["column"]) != (
+        line,
+        column,
+    ):
+        raise FaultError(f"no place: {finding}")
+    if text and f"{place['file']}:{line}:{column}" not in shown:
+        raise FaultError(f"not shown at its place: {shown}")
+    if not finding.message or (finding.message.isprintable() and finding.message not in shown):
+        raise FaultError(f"no message: {shown}")
 
 
 def _lay_out(path: Path) -> None:

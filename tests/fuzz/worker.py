@@ -64,11 +64,7 @@ def _kind(lines: list[str]) -> str:
     """The innermost place in golc and the error: what inputs with the same fault have in common."""
     text = "".join(line if line.endswith("\n") else f"{line}\n" for line in lines).splitlines()
     places = [line.strip() for line in text if line.lstrip().startswith("File") and "/golc/" in line]
-    errors = [
-        line
-        for line in text
-        if re.match(r"\w[\w.]*(Error|Exception|Assertion)\b|the canonical|no theory|no place", line)
-    ]
+    errors = [line for line in text if re.match(r"\w[\w.]*(Error|Exception|Assertion)\b|the canonical|not? \w+", line)]
     error = errors[-1] if errors else text[-1]
     return f"{error[:120]} | {places[-1] if places else ''}"
 

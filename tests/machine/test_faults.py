@@ -178,13 +178,18 @@ def test_a_damaged_image_is_refused_or_runs_or_is_an_error(
 
 
 @pytest.mark.parametrize("target", list(Target))
-def test_what_nqc_compiles_never_is_an_error(
+def test_what_nqc_compiles_runs_without_a_fault(
     robot: MakeRobot, random_program: Callable[..., str], target: Target
 ) -> None:
+    told: set[str] = set()
     for seed in range(60):
         chance = random.Random(seed)
-        program = robot(random_program(seed, target), target, seed=seed)
+        text = random_program(seed, target)
+        program = robot(text, target, seed=seed)
         for _ in range(6):
             program.run(1)
             program.machine.hear(chance.randrange(1, 256))
             program.bench.raw[:] = [chance.randrange(1024) for _ in range(3)]
+        assert 6.0 <= program.machine.seconds < 6.1 and not program.told("fault"), text
+        told |= {record["what"] for record in program.records}
+    assert told >= {"task", "motor", "sound", "sensor"}

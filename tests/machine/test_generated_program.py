@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
@@ -26,9 +26,7 @@ from golc.runtime.rcxsim.machine.options import FIRMWARES, Options
 from golc.runtime.rcxsim.machine.simulator import build
 from golc.runtime.rcxsim.surroundings import Bench, Mode
 from golc.runtime.rcxsim.trace import Trace
-
-if TYPE_CHECKING:
-    from tests.conftest import VirtualPort
+from tests.rcxsim.virtual_port import VirtualPort
 
 DELIVERY = Path(__file__).parents[2] / "examples" / "delivery" / "delivery.gl"
 TURN, SIGNAL, START, ARRIVED, LOST, PUSHED = range(6)
@@ -86,7 +84,7 @@ def images(tmp_path_factory: pytest.TempPathFactory) -> dict[Target, Image]:
 
 
 @pytest.fixture
-def robot(images: dict[Target, Image], virtual_port: type[VirtualPort]) -> Callable[..., Robot]:
+def robot(images: dict[Target, Image]) -> Callable[..., Robot]:
     def make(target: Target = Target.RCX2, *, seed: int = 0, op_time: int | None = None, **line: Any) -> Robot:
         records: list[dict[str, Any]] = []
         trace = Trace(lambda record: records.append(dict(record)))
@@ -95,7 +93,7 @@ def robot(images: dict[Target, Image], virtual_port: type[VirtualPort]) -> Calla
         image = images[target]
         options = Options(seed=seed, op_time=op_time)
         end, brick = build(FIRMWARES[image.target], image, bench, options, LineOptions(**line), trace)
-        port = virtual_port(end)
+        port = VirtualPort(end)
         return Robot(brick, bench, port, Brick(Tower(port)), records)
 
     return make

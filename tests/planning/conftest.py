@@ -10,33 +10,16 @@ from typing import Any
 import pytest
 
 from golc.cli import invoke
-from golc.diagnostics import Findings, Source
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.order import spelt
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Type, writable
+from tests.reference.definitions import Definitions
 
 Plan = list[dict[str, Any]]
 """A plan as it is printed."""
 
 MOST_SILENT = 60
 """Steps without an action in a row that are looked at."""
-
-
-@pytest.fixture(scope="session")
-def theory_of() -> Callable[[str], BasicActionTheory]:
-    """The theory of a text, which must be without errors."""
-
-    def make(text: str) -> BasicActionTheory:
-        source, findings = Source("test.gl", text), Findings()
-        file = parse_file(source, findings)
-        assert file is not None, findings.diagnostics
-        theory = elaborate(file, source, findings)
-        assert theory is not None, findings.diagnostics
-        return theory
-
-    return make
 
 
 def as_json(values: tuple[Any, ...], types: list[Type]) -> str:
@@ -51,8 +34,8 @@ class Validity:
     what is sensed is not made use of.
     """
 
-    def __init__(self, definitions: Any, theory: BasicActionTheory, conformant: bool = False) -> None:
-        self.d = definitions(theory, True)
+    def __init__(self, theory: BasicActionTheory, conformant: bool = False) -> None:
+        self.d = Definitions(theory, True)
         self.theory = theory
         self.conformant = conformant
 
@@ -112,6 +95,7 @@ class Validity:
         if not plan:
             return bool(self.d.k.holds(goal, worlds, ()))
         event = self.d.expected(worlds)
+        label: tuple[Any, ...] | None
         if "expected" in plan[0]:
             label = ("expected", *event) if event is not None else None
         else:
@@ -131,9 +115,9 @@ class Validity:
 
 
 @pytest.fixture(scope="session")
-def validity(definitions: Any) -> Callable[..., Validity]:
+def validity() -> type[Validity]:
     """The judge of the plans of a theory."""
-    return lambda theory, conformant=False: Validity(definitions, theory, conformant)
+    return Validity
 
 
 @pytest.fixture(scope="session")

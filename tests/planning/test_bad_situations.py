@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import cast
 
 import pytest
@@ -19,8 +18,7 @@ from golc.situation.interpret import Interpreter
 from golc.situation.layout import World
 from golc.theory.statements import Strategy
 from golc.theory.theory import BasicActionTheory
-
-TheoryOf = Callable[[str], BasicActionTheory]
+from tests.theories import theory_of
 
 DOMAIN = """domain walk
 type spot = 0..4
@@ -74,25 +72,23 @@ def planned(theory: BasicActionTheory, procedure: str = "control", strategy: str
     ],
 )
 @pytest.mark.parametrize("strategy", ["shortest", "cheapest"])
-def test_the_best_plan_enters_no_bad_situation(
-    theory_of: TheoryOf, prune: str, steps: list[str] | None, strategy: str
-) -> None:
+def test_the_best_plan_enters_no_bad_situation(prune: str, steps: list[str] | None, strategy: str) -> None:
     theory = theory_of(f"{DOMAIN}{prune}\n")
     assert planned(theory, strategy=strategy) == steps
     goal = GoalPlanning(theory, theory.definitions["there"].body, Limits())
     assert next(([str(step) for step in plan.steps] for plan in goal), None) == steps
 
 
-def test_the_initial_situation_is_not_pruned(theory_of: TheoryOf) -> None:
+def test_the_initial_situation_is_not_pruned() -> None:
     theory = theory_of(f"{DOMAIN}prune start: at = 1\n")
     assert planned(theory, strategy="shortest") == ["go(2)", "go(4)"]
 
 
-def test_an_action_that_changes_nothing_enters_a_situation_too(theory_of: TheoryOf) -> None:
+def test_an_action_that_changes_nothing_enters_a_situation_too() -> None:
     assert planned(theory_of(f"{DOMAIN}prune start: at = 1\nproc still:\n    rest\n"), "still") is None
 
 
-def test_an_expected_event_is_pruned_like_an_action(theory_of: TheoryOf) -> None:
+def test_an_expected_event_is_pruned_like_an_action() -> None:
     text = DOMAIN.replace("fuel: int = 4", "fuel: int = 1")
     assert planned(theory_of(text), "towed") == ["go(2)", "… tow(0)", "go(2)"]
     theory = theory_of(f"{text}prune back: after tow(n) when n < before(at)\n")
@@ -102,7 +98,7 @@ def test_an_expected_event_is_pruned_like_an_action(theory_of: TheoryOf) -> None
     assert [reason.text for reason in planning.outcome.reasons] == ["`tow(0)` is pruned by `back`"]
 
 
-def test_a_dead_end_names_the_prune(theory_of: TheoryOf) -> None:
+def test_a_dead_end_names_the_prune() -> None:
     theory = theory_of(f"{DOMAIN}prune low: fuel < 4\nproc pair:\n    rest\n    go(2)\n")
     planning = Planning(executable(theory, "pair"), Limits())
     assert list(planning) == []
@@ -118,7 +114,7 @@ def test_a_dead_end_names_the_prune(theory_of: TheoryOf) -> None:
     ]
 
 
-def test_a_way_that_is_followed_from_another_state_enters_no_bad_situation(theory_of: TheoryOf) -> None:
+def test_a_way_that_is_followed_from_another_state_enters_no_bad_situation() -> None:
     body = (
         "proc block:\n    search:\n        go(2)\n        choose:\n            go(3)\n        or:\n            rest\n"
     )
@@ -158,7 +154,7 @@ proc control:
         ("prune open: after flip(n) when not before(knows(lit(n)))", ["put_out(1)"]),
     ],
 )
-def test_a_prune_has_to_be_known(theory_of: TheoryOf, prune: str, steps: list[str]) -> None:
+def test_a_prune_has_to_be_known(prune: str, steps: list[str]) -> None:
     assert planned(theory_of(f"{UNKNOWN}{prune}\n")) == steps
 
 
@@ -185,7 +181,7 @@ RANDOM = """proc random:
 
 
 @given(chosen=st.sets(st.sampled_from(PRUNES), min_size=1, max_size=3))
-def test_the_plans_are_those_that_enter_no_bad_situation(theory_of: TheoryOf, chosen: set[str]) -> None:
+def test_the_plans_are_those_that_enter_no_bad_situation(chosen: set[str]) -> None:
     free = theory_of(DOMAIN + RANDOM)
     theory = theory_of("\n".join([DOMAIN + RANDOM, *sorted(chosen), ""]))
     every = Planning(executable(free, "random"), Limits(steps=2), all_plans=True)

@@ -16,10 +16,10 @@ from golc.planning.planner import Planning, executable
 from golc.planning.plans import Plan
 from golc.program.labels import Act
 from golc.theory.statements import Strategy
-from golc.theory.theory import BasicActionTheory
-from golc.theory.types import writable
-
-TheoryOf: TypeAlias = Callable[[str], BasicActionTheory]
+from golc.theory.types import Value, writable
+from tests.reference.definitions import Definitions
+from tests.reference.knowledge import Knowledge, Worlds
+from tests.theories import theory_of
 
 MOST_PAIRS = 300
 
@@ -81,6 +81,14 @@ def blocks(depth: int) -> st.SearchStrategy[list[str]]:
 
 PROGRAMS = st.one_of(blocks(2), st.just(ANYTHING), blocks(1).map(lambda block: [*block, *ANYTHING]))
 
+
+class Blind(Knowledge):
+    """Knowledge of an agent that makes no use of what is sensed."""
+
+    def outcomes(self, action: str, s: Worlds, args: tuple[Value, ...]) -> dict[tuple[Value, ...], Worlds]:
+        return {(): s}
+
+
 Pair: TypeAlias = Any
 Options: TypeAlias = dict[Pair, list[tuple[int, list[Pair]]]]
 """For each pair that is no end its options: what they weigh, and the pairs of their outcomes."""
@@ -113,7 +121,7 @@ def least(options: Callable[[Pair], list[tuple[int, list[Pair]]] | None], start:
             return worth[start]
 
 
-def of_program(d: Any) -> float:
+def of_program(d: Definitions) -> float:
     """The same for a program, by the definitions."""
 
     def options(pair: Pair) -> list[tuple[int, list[Pair]]] | None:
@@ -132,9 +140,10 @@ def of_program(d: Any) -> float:
                 if not any(d.k.pruned(name, args, worlds, known) for known in outcomes):
                     found.append((1, [(left, known) for known in outcomes]))
             elif waits:
-                event, args = d.expected(worlds)
-                known = d.k.progress(event, worlds, args)
-                if not d.k.pruned(event, args, worlds, known):
+                event = d.expected(worlds)
+                assert event is not None
+                known = d.k.progress(event[0], worlds, event[1])
+                if not d.k.pruned(*event, worlds, known):
                     found.append((0, [(left, known)]))
         return found
 
@@ -142,7 +151,7 @@ def of_program(d: Any) -> float:
     return least(options, (d.start("control"), d.k.initial()))
 
 
-def of_goal(d: Any) -> float:
+def of_goal(d: Definitions) -> float:
     """The same for the goal."""
 
     def options(worlds: Pair) -> list[tuple[int, list[Pair]]] | None:
@@ -178,11 +187,9 @@ def as_printed(plan: Plan) -> list[dict[str, Any]]:
 
 
 @given(domain=domains(), body=PROGRAMS)
-def test_a_plan_is_found_exactly_if_there_is_one(
-    theory_of: TheoryOf, definitions: Any, validity: Any, domain: str, body: list[str]
-) -> None:
+def test_a_plan_is_found_exactly_if_there_is_one(validity: Any, domain: str, body: list[str]) -> None:
     theory = theory_of("\n".join([domain, "proc control:", *(f"    {line}" for line in body), ""]))
-    wanted = of_program(definitions(theory, True))
+    wanted = of_program(Definitions(theory, True))
     ready = executable(theory, "control")
     for strategy in Strategy:
         plan = next(iter(Planning(ready, Limits(), strategy=strategy)), None)
@@ -199,12 +206,12 @@ def test_a_plan_is_found_exactly_if_there_is_one(
 
 @given(domain=domains(), conformant=st.booleans(), bound=st.sampled_from([None, 1, 2]))
 def test_a_goal_is_reached_exactly_if_it_can_be(
-    theory_of: TheoryOf, definitions: Any, validity: Any, domain: str, conformant: bool, bound: int | None
+    validity: Any, domain: str, conformant: bool, bound: int | None
 ) -> None:
     theory = theory_of(f"{domain}\n")
-    defined = definitions(theory, True)
+    defined = Definitions(theory, True)
     if conformant:
-        defined.k.outcomes = lambda action, worlds, args: {(): worlds}
+        defined.k = Blind(theory)
     wanted = of_goal(defined)
     plan = next(iter(GoalPlanning(theory, theory.definitions["reached"].body, Limits(steps=bound), conformant)), None)
     assert (plan is not None) == (wanted < math.inf if bound is None else wanted <= bound)
@@ -214,12 +221,10 @@ def test_a_goal_is_reached_exactly_if_it_can_be(
 
 
 @given(domain=domains(), body=PROGRAMS)
-def test_a_conformant_plan_works_without_any_result(
-    theory_of: TheoryOf, definitions: Any, validity: Any, domain: str, body: list[str]
-) -> None:
+def test_a_conformant_plan_works_without_any_result(validity: Any, domain: str, body: list[str]) -> None:
     theory = theory_of("\n".join([domain, "proc control:", *(f"    {line}" for line in body), ""]))
-    blind = definitions(theory, True)
-    blind.k.outcomes = lambda action, worlds, args: {(): worlds}
+    blind = Definitions(theory, True)
+    blind.k = Blind(theory)
     wanted = of_program(blind)
     for strategy in Strategy:
         ready = executable(theory, "control", conformant=True)
@@ -231,7 +236,7 @@ def test_a_conformant_plan_works_without_any_result(
             assert strategy is Strategy.FIRST or weight(plan) == wanted
 
 
-def test_plans_that_branch_are_not_listed(theory_of: TheoryOf) -> None:
+def test_plans_that_branch_are_not_listed() -> None:
     theory = theory_of("domain d\nfluent p: bool = unknown\naction a:\n    senses p\nproc control:\n    a\n")
     with pytest.raises(ValueError, match="plans that branch by what is sensed are not listed"):
         Planning(executable(theory, "control"), Limits(), all_plans=True)

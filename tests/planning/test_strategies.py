@@ -10,16 +10,13 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from golc.diagnostics import Findings, Source
 from golc.planning.limits import Limits
 from golc.planning.planner import Executable, Planning, executable
 from golc.planning.plans import Plan
 from golc.program.labels import Act
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.statements import Strategy
-from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Number
+from tests.theories import theory_of
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -45,17 +42,8 @@ action off(n: 0..2):
 
 def compiled(lines: list[str]) -> Executable:
     return executable(
-        parsed("\n".join([DECLARATIONS, "proc control:", *(f"    {line}" for line in lines), ""])), "control"
+        theory_of("\n".join([DECLARATIONS, "proc control:", *(f"    {line}" for line in lines), ""])), "control"
     )
-
-
-def parsed(text: str) -> BasicActionTheory:
-    source, findings = Source("test.gl", text), Findings()
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings)
-    assert theory is not None, findings.diagnostics
-    return theory
 
 
 def one(program: Executable, strategy: Strategy, limits: Limits) -> Plan | None:
@@ -116,7 +104,7 @@ def test_the_best_plan_is_the_first_of_the_best_of_all(body: list[str], steps: i
 def test_search_shortest_drives_the_elevator_as_little_as_possible() -> None:
     """Of all orders of the floors, one by one, the best."""
     text = (EXAMPLES / "elevator" / "elevator.gl").read_text() + "proc tour:\n    search shortest:\n        basic\n"
-    program = executable(parsed(text), "tour")
+    program = executable(theory_of(text), "tour")
     node, state, actions = program.node, program.dynamics.initial(), []
     while (transition := program.machine.decide(node, state)) is not None:
         label, node = transition
@@ -169,7 +157,7 @@ proc control:
 @pytest.mark.parametrize("key", ["false", "unknown"])
 @pytest.mark.parametrize("strategy", Strategy)
 def test_where_every_way_leads_back_the_longest_is_told(strategy: Strategy, key: str) -> None:
-    planning = Planning(executable(parsed(ROUND.format(key=key)), "control"), Limits(), strategy=strategy)
+    planning = Planning(executable(theory_of(ROUND.format(key=key)), "control"), Limits(), strategy=strategy)
     assert list(planning) == []
     assert planning.outcome.gave_up is None
     assert planning.outcome.stuck[:1] == ("go(2)",)

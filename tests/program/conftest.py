@@ -6,14 +6,12 @@ from textwrap import dedent, indent
 
 import pytest
 
-from golc.diagnostics import Findings, Source
 from golc.planning.planner import Executable, executable
 from golc.program.labels import Abort, Act, Clock, Label, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.program.step import Machine
 from golc.situation.worlds import State
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
+from tests.theories import theory_of
 
 DECLARATIONS = """
 domain trial
@@ -120,13 +118,8 @@ def start() -> Start:
     """Start a program: the lines of ``control``, and further procedures as they stand."""
 
     def make(body: str, procedures: str = "", ahead: bool = False) -> Running:
-        text = f"{DECLARATIONS}{dedent(procedures)}\nproc control:\n{indent(dedent(body).strip(), '    ')}\n".lstrip()
-        findings = Findings()
-        source = Source("test.gl", text)
-        file = parse_file(source, findings)
-        assert file is not None and not findings.diagnostics, findings.diagnostics
-        theory = elaborate(file, source, findings)
-        assert theory is not None, findings.diagnostics
+        control = indent(dedent(body).strip(), "    ")
+        theory = theory_of(f"{DECLARATIONS}{dedent(procedures)}\nproc control:\n{control}\n".lstrip())
         ready = executable(theory, "control")
         machine = ready.machine.ahead if ahead else ready.machine
         return Running(ready, machine, ready.node, ready.dynamics.initial())

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 
 from golc.situation.worlds import Worlds
 from golc.theory.types import show_call
+from tests.reference.definitions import Definitions
 
 CONDITIONS = ["x = 0", "x < 2", "not p", "on(1)", "exists n: digit. on(n)", "x % 2 = 1", "x in todo", "true", "false"]
 LEAVES = ["a", "b", "inc", "act(x)", "off(1)", "off(x % 4)", "push(x % 4)", "never", "skip", "wait", "wait 5 s", "q(1)"]
@@ -86,10 +87,8 @@ def lines(depth: int, conditions: list[str] = CONDITIONS) -> st.SearchStrategy[l
 
 
 @given(body=lines(2), ahead=st.booleans())
-def test_transitions_and_finality_are_those_of_the_definitions(
-    start: Any, definitions: Any, body: list[str], ahead: bool
-) -> None:
-    compare(start("\n".join(body), PROCEDURES, ahead), definitions, ahead)
+def test_transitions_and_finality_are_those_of_the_definitions(start: Any, body: list[str], ahead: bool) -> None:
+    compare(start("\n".join(body), PROCEDURES, ahead), ahead)
 
 
 UNKNOWN = """
@@ -108,16 +107,14 @@ exog ping(n: digit) expected:
 
 
 @given(body=lines(2, UNCERTAIN), more=st.sampled_from(["", UNKNOWN.replace("expected", "")]))
-def test_look_ahead_knows_what_follows_from_the_possible_worlds(
-    start: Any, definitions: Any, body: list[str], more: str
-) -> None:
-    compare(start("\n".join(body), PROCEDURES + (more or UNKNOWN), True), definitions, True)
+def test_look_ahead_knows_what_follows_from_the_possible_worlds(start: Any, body: list[str], more: str) -> None:
+    compare(start("\n".join(body), PROCEDURES + (more or UNKNOWN), True), True)
 
 
-def compare(program: Any, definitions: Any, ahead: bool) -> None:
+def compare(program: Any, ahead: bool) -> None:
     """Follow all transitions of a program for some steps, in the machine and by the definitions."""
     theory = program.executable.dynamics.theory
-    defined = definitions(theory, ahead)
+    defined = Definitions(theory, ahead)
     pending = [(program, defined.start("control"))]
     for _ in range(40):
         if not pending:

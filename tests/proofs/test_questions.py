@@ -12,15 +12,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from golc.diagnostics import Findings, ProgramError, Source
+from golc.diagnostics import ProgramError
 from golc.proofs.prover import Prover
 from golc.proofs.questions import Asked, Question, Undecided, Witness
 from golc.proofs.solver import solve
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show_call
+from tests.theories import theory_of
 
 HEAD = """\
 domain trial
@@ -45,15 +44,6 @@ STATES = [
     (x, *on, paint, y, far)
     for x, on, paint, y, far in itertools.product(range(4), ON, (None, "red", "blue"), range(-3, 9), FAR)
 ]
-
-
-def theory_of(text: str) -> BasicActionTheory:
-    findings, source = Findings(), Source("trial.gl", text)
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings)
-    assert theory is not None, findings.diagnostics
-    return theory
 
 
 formulas = st.recursive(

@@ -11,13 +11,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from golc.diagnostics import Findings, ProgramError, Source
+from golc.diagnostics import ProgramError
 from golc.proofs.prover import Prover
 from golc.proofs.questions import Asked, Question, Undecided, Witness
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
-from golc.theory.theory import BasicActionTheory
+from tests.theories import theory_of
 
 HEAD = """\
 domain trial
@@ -65,15 +63,6 @@ formulas = st.recursive(
     ),
     max_leaves=4,
 )
-
-
-def theory_of(text: str) -> BasicActionTheory:
-    findings, source = Findings(), Source("trial.gl", text)
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings)
-    assert theory is not None, findings.diagnostics
-    return theory
 
 
 def ask(formula: str, fails: bool) -> Witness | Undecided | None:

@@ -10,15 +10,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from golc.diagnostics import Findings, ProgramError, Source
+from golc.diagnostics import ProgramError
 from golc.proofs.questions import Asked, Question
 from golc.proofs.solver import solve
 from golc.proofs.symbols import NotDecidedError
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
-from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show_call
+from tests.theories import theory_of
 
 HEAD = """\
 domain trial
@@ -50,15 +48,6 @@ OTHERS = [
 SUBSETS = [frozenset(chosen) for size in range(4) for chosen in itertools.combinations(range(3), size)]
 FEW = [frozenset[int](), frozenset({0}), frozenset({0, 1, 2})]
 LISTS = [(), (1,), (2,), (0, 1), (1, 2), (2, 2), (0, 1, 2), (0, 2, 1)]
-
-
-def theory_of(text: str) -> BasicActionTheory:
-    findings, source = Findings(), Source("trial.gl", text)
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings)
-    assert theory is not None, findings.diagnostics
-    return theory
 
 
 def formulas(atoms: list[str]) -> st.SearchStrategy[str]:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from golc.diagnostics import Findings, Source
 from golc.proofs.prover import Prover
 from golc.proofs.questions import Asked, Question, Witness
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
+from tests.theories import theory_of
 
 HEAD = """\
 domain trial
@@ -28,11 +26,7 @@ fluent fuel: real = 0
 
 
 def shown(formula: str, fails: bool = False, more: str = "") -> dict[str, object]:
-    findings, source = Findings(), Source("trial.gl", f"{HEAD}{more}define asked := {formula}\n")
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings)
-    assert theory is not None, findings.diagnostics
+    theory = theory_of(f"{HEAD}{more}define asked := {formula}\n")
     found = Prover(theory).answer(Question((), (Asked(theory.definitions["asked"].body),), fails))
     assert isinstance(found, Witness), found
     return dict(found.fluents)

@@ -1,6 +1,7 @@
 """Real ports: ptys and sockets with another process at the far end, and everything that is no port at all."""
 
 import os
+import select
 import socket
 import stat
 import threading
@@ -29,6 +30,8 @@ from golc.runtime.devices.rcx import (
     SilentBrickError,
     open_tower,
 )
+from golc.runtime.devices.rcx.chardev import CharacterDevice
+from golc.runtime.devices.rcx.transport import Clock
 
 SmallBrick = Callable[..., Any]
 FAST = 30.0
@@ -229,11 +232,38 @@ def test_a_socket_that_nobody_listens_on() -> None:
         open_tower("socket://127.0.0.1:1")
 
 
-def test_a_device_without_a_word_and_one_that_babbles() -> None:
-    with open_tower("usb:/dev/null") as tower, pytest.raises(PortGoneError):
-        Brick(tower).poll()
-    with Brick(open_tower("usb:/dev/zero", FAST)) as brick, pytest.raises(SilentBrickError):
-        brick.perform(4)
+def test_a_device_whose_far_end_has_closed_has_nothing_to_read() -> None:
+    ours, theirs = os.openpty()
+    device = CharacterDevice(os.ttyname(theirs), Clock())
+    device.open()
+    os.close(theirs)
+    os.close(ours)
+    with pytest.raises(PortGoneError, match="has gone away"):
+        device.read(device.now() + 5.0)
+    device.close()
+
+
+def test_a_device_that_babbles(pty_pair: tuple[int, str]) -> None:
+    far, path = pty_pair
+    babbling, heard = threading.Event(), bytearray()
+    babbling.set()
+
+    def babble() -> None:
+        while babbling.is_set():
+            if select.select([], [far], [], 0.05)[1]:
+                os.write(far, bytes(100))
+            if select.select([far], [], [], 0.0)[0]:
+                heard.extend(os.read(far, 1000))
+
+    thread = threading.Thread(target=babble)
+    thread.start()
+    try:
+        with Brick(open_tower(f"usb:{path}", FAST)) as brick, pytest.raises(SilentBrickError):
+            brick.perform(4)
+        assert heard.count(bytes.fromhex("f70824db1be4")) >= 4
+    finally:
+        babbling.clear()
+        thread.join()
 
 
 def test_a_port_that_cannot_be_waited_on_is_looked_at() -> None:
@@ -243,8 +273,8 @@ def test_a_port_that_cannot_be_waited_on_is_looked_at() -> None:
         assert brick.tower.statistics.heard == 0
 
 
-def test_a_closed_port_is_gone() -> None:
-    tower = open_tower("usb:/dev/zero")
+def test_a_closed_port_is_gone(pty_pair: tuple[int, str]) -> None:
+    tower = open_tower(f"usb:{pty_pair[1]}")
     tower.close()
     tower.close()
     with pytest.raises(PortGoneError, match="is not open"):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import pytest
 
@@ -12,20 +12,18 @@ from golc.runtime.devices.rcx.brick import Brick
 from golc.runtime.devices.rcx.errors import PanicError
 from golc.runtime.devices.rcx.tower import Tower
 from golc.runtime.rcxsim.frames import message
-
-if TYPE_CHECKING:
-    from tests.conftest import VirtualPort
+from tests.rcxsim.virtual_port import VirtualPort
 
 MakeWire = Callable[..., Any]
-Connect = Callable[[Any], "tuple[Brick, VirtualPort]"]
+Connect = Callable[[Any], tuple[Brick, VirtualPort]]
 NUMBERS = {"up": 0, "go": 1, "look(1)": 2, "weigh": 5, "unload": 6, "turn_off(1)": 65, "turn_off(3)": 67}
 EVENTS = {8: "arrived", 9: "stuck", 10: "bell", 16: "call(1)", 17: "call(2)", 18: "call(3)"}
 
 
 @pytest.fixture
-def connect(virtual_port: type[VirtualPort]) -> Connect:
+def connect() -> Connect:
     def connected(lift: Any) -> tuple[Brick, VirtualPort]:
-        port = virtual_port(lift.line)
+        port = VirtualPort(lift.line)
         return Brick(Tower(port)), port
 
     return connected

@@ -7,12 +7,11 @@ import threading
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from textwrap import dedent
 from typing import IO, Any
 
 import pytest
 
-from golc.diagnostics import DeviceError, Findings, Source
+from golc.diagnostics import DeviceError
 from golc.loading import load
 from golc.planning.planner import executable
 from golc.runtime.clock import Clock
@@ -21,10 +20,9 @@ from golc.runtime.loop.executive import Executive, Outcome
 from golc.runtime.loop.happenings import Begun, Happening, Said, TakenIn
 from golc.runtime.loop.inbox import Inbox, Item, Report
 from golc.runtime.loop.policy import Policy
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import show_call
+from tests.theories import theory_of
 
 PATIENCE = 60.0
 """Seconds after which a process of a test is ended; nothing takes nearly as long."""
@@ -33,17 +31,6 @@ ROOT = Path(__file__).parent.parent.parent
 DELIVERY = ROOT / "examples/delivery/delivery.gl"
 
 Perform = Callable[[str, Args], Args]
-
-
-def theory_of(text: str) -> BasicActionTheory:
-    """The theory that a text declares, without the checks."""
-    source = Source("trial.gl", dedent(text))
-    findings = Findings()
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings, {})
-    assert theory is not None, findings.diagnostics
-    return theory
 
 
 class ScriptedDevice(Device):

@@ -482,3 +482,33 @@ def test_a_blocked_program_without_sources_ends_with_5(golc: Golcs, tmp_path: Pa
     assert "error[GL108]: the program is blocked" in err
     assert "`p` is false (p = false)" in err
     assert "end: the program is blocked" in out
+
+
+def test_a_long_run_does_not_grow(tmp_path: Path, golc: Golcs) -> None:
+    (tmp_path / "count.gl").write_text(
+        """domain counting
+fluent round: int = 0
+fluent kept: int = 0
+action go:
+    causes round := round + 1
+action look:
+    senses kept
+proc control:
+    while round < 2000:
+        go
+    look
+    say "{kept} are kept"
+device self:
+    go
+device host "memory.py":
+    look
+"""
+    )
+    (tmp_path / "memory.py").write_text(
+        """import gc
+def look():
+    return sum(type(thing).__name__ in ("Done", "Occurrence") for thing in gc.get_objects())
+"""
+    )
+    code, out, _ = golc(tmp_path / "count.gl", "-q", stdin=subprocess.DEVNULL).end()
+    assert code == 0 and re.search(r"\b0 are kept", out)

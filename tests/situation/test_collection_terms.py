@@ -6,12 +6,10 @@ from fractions import Fraction
 
 import pytest
 
-from golc.diagnostics import Findings, Source
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.types import Value
+from tests.theories import theory_of
 
 DOMAIN = """domain d
 type colour = {red, green, blue}
@@ -71,10 +69,7 @@ TERMS: list[tuple[str, Value]] = [
 
 def evaluated(text: str) -> list[Value]:
     """The value of an expression by generated code, and off the tree."""
-    findings, source = Findings(), Source("d.gl", f"{DOMAIN}define it := {text}\n")
-    file = parse_file(source, findings)
-    theory = elaborate(file, source, findings) if file else None
-    assert theory is not None, findings.diagnostics
+    theory = theory_of(f"{DOMAIN}define it := {text}\n")
     dynamics, term = Dynamics(theory), theory.definitions["it"].body
     state = dynamics.initial()
     with deep_recursion():

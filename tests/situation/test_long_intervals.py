@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from golc.diagnostics import Findings, Source
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
+from tests.theories import theory_of
 
 DOMAIN = """domain d
 type long = 1..10000000000
@@ -24,11 +22,7 @@ action a:
 
 @pytest.mark.parametrize(("number", "possible"), [(0, False), (1, True), (10**10, True), (10**10 + 1, False)])
 def test_a_value_that_may_be_none_is_looked_for_without_listing_the_interval(number: int, possible: bool) -> None:
-    findings, source = Findings(), Source("d.gl", DOMAIN)
-    file = parse_file(source, findings)
-    theory = elaborate(file, source, findings) if file else None
-    assert theory is not None, findings.diagnostics
-    dynamics = Dynamics(theory)
+    dynamics = Dynamics(theory_of(DOMAIN))
 
     state = dynamics.progress(dynamics.initial(), "set_x", (number,))
 

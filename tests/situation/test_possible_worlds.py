@@ -14,13 +14,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from golc.diagnostics import Findings, ProgramError, Source
+from golc.diagnostics import ProgramError
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State, TooManyCasesError, Worlds, choices, rebuilt, survey
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
-from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Unknown
+from tests.theories import theory_of
 
 DOMAIN = """\
 domain house
@@ -158,15 +156,6 @@ def knowledge(worlds: list[House]) -> dict[str, bool]:
         "possible(lit(at))": any(world[f"lit{world['at']}"] for world in worlds),
         **{f"lit({room})": all(world[f"lit{room}"] for world in worlds) for room in ROOMS},
     }
-
-
-def theory_of(text: str) -> BasicActionTheory:
-    findings, source = Findings(), Source("house.gl", text)
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings)
-    assert theory is not None, findings.diagnostics
-    return theory
 
 
 DEFINED = "".join(f"define formula{number} := {formula}\n" for number, formula in enumerate(FORMULAS))

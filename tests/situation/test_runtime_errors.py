@@ -6,12 +6,11 @@ from collections.abc import Callable
 
 import pytest
 
-from golc.diagnostics import Findings, ProgramError, Source
+from golc.diagnostics import ProgramError
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
+from tests.theories import theory_of
 
 DOMAIN = """domain d
 type t = 1..3
@@ -40,14 +39,6 @@ ERRORS = [
     ("x := ever(0)", "GL106", "ever", "the recursion of `ever` does not end, or goes too deep"),
     ("forall n: t. y := n", "GL105", "causes forall n: t. y := n", "two effects give `y` the values 1 and 2"),
 ]
-
-
-def theory_of(text: str) -> BasicActionTheory:
-    findings, source = Findings(), Source("d.gl", text)
-    file = parse_file(source, findings)
-    theory = elaborate(file, source, findings) if file else None
-    assert theory is not None, findings.diagnostics
-    return theory
 
 
 @pytest.mark.parametrize(("effect", "code", "place", "message"), ERRORS, ids=[error[0] for error in ERRORS])

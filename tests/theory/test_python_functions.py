@@ -223,8 +223,8 @@ USES: list[tuple[str, int]] = [
     ("type u = 0..(f(2))", 5),
     ("static s = f(1) > 1", 5),
     ("static s(a: t): int = {1: f(1), 2: 2, 3: 3}", 5),
-    ("fluent x: int = f(2)", 5),
-    ("fluent x(a: t): int = f(a)", 5),
+    ("fluent x: t = f(2)", 5),
+    ("fluent x(a: t): t = f(a)", 5),
     ("fluent x: int = one of {f(1), 3}", 5),
     ("initially f(1) = 1", 5),
     ("invariant i: f(1) = 1", 5),
@@ -255,6 +255,38 @@ def test_with_trust_there_is_a_value(write: Write, use: str, line: int) -> None:
     codes = (Code.UNUSED, Code.IDLE_CONSTRAINT)
     assert [finding for finding in examined.findings if finding.code not in codes] == []
     assert examined.theory is not None
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        "fluent x: int = f(2)",
+        "fluent x(a: t): int = f(a)",
+        "fluent x: t = 1 if f(2) > 3 else 2",
+        "invariant i: f(1) = f(1)",
+        "fluent x: int = f(2)\ninvariant i: x = f(2)",
+        "fluent x: int = one of {1, 3}\ninvariant i: f(x) = f(1) or f(x) = f(3)",
+    ],
+)
+def test_without_trust_nothing_is_said_of_what_is_so_for_every_function(write: Write, use: str) -> None:
+    path = write(f"{extern('(a: t): int')}\n{use}", "def f(a):\n    raise AssertionError('executed')\n")
+
+    assert [finding for finding in examine(path).findings if finding.code is not Code.UNUSED] == []
+
+
+@pytest.mark.parametrize(
+    ("use", "message"),
+    [
+        ("invariant i: f(1) != f(1)", "invariant `i` is false in the initial state"),
+        ("fluent x: t = one of {1, 3}\ninvariant i: f(x) != f(1)", "invariant `i` is false in a world that is"),
+    ],
+)
+def test_without_trust_what_is_false_for_every_function_is_an_error(write: Write, use: str, message: str) -> None:
+    path = write(f"{extern('(a: t): int')}\n{use}", "def f(a):\n    raise AssertionError('executed')\n")
+
+    (error,) = [finding for finding in examine(path).findings if finding.code is not Code.UNUSED]
+    assert error.code is Code.INVARIANT_AT_FIRST
+    assert error.message.startswith(message)
 
 
 def test_without_trust_the_rest_is_checked(write: Write) -> None:

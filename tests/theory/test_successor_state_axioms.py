@@ -11,11 +11,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from golc.diagnostics import Findings, Source
 from golc.situation.dynamics import Dynamics
-from golc.syntax.parse import parse_file
-from golc.theory.elaborate import elaborate
 from golc.theory.theory import BasicActionTheory
+from tests.theories import theory_of
 
 Found = Callable[..., list[str]]
 Theory = Callable[..., BasicActionTheory]
@@ -185,29 +183,18 @@ def lines(draw: st.DrawFn) -> Line:
     return Line(action, pattern, value, condition)
 
 
-def build(text: str) -> Dynamics:
-    source, findings = Source("trial.gl", text), Findings()
-    file = parse_file(source, findings)
-    assert file is not None
-    theory = elaborate(file, source, findings)
-    assert theory is not None, (text, findings.diagnostics)
-    return Dynamics(theory)
-
-
 @given(st.lists(lines(), min_size=1, max_size=5), st.tuples(*[st.integers(0, 2)] * 6))
 def test_an_axiom_means_what_the_equivalent_clauses_mean(cases: list[Line], state: tuple[int, ...]) -> None:
-    axiom = build(
-        f"{BASE}action a(p: t, q: t)\naction b(p: int)\naxiom big(f):\n"
-        + "".join(case.axiom() for case in cases)
-        + "    otherwise unchanged\n"
-    )
+    lines = "".join(case.axiom() for case in cases)
+    head = "action a(p: t, q: t)\naction b(p: int)\naxiom big(f):\n"
+    axiom = Dynamics(theory_of(f"{BASE}{head}{lines}    otherwise unchanged\n"))
     clauses = {
         action: "".join(case.clause(cases[:index]) for index, case in enumerate(cases) if case.action == action)
         for action in PARAMETERS
     }
     heads = {"a": "action a(p: t, q: t)", "b": "action b(p: int)"}
     actions = [f"{heads[name]}:\n{clauses[name]}" if clauses[name] else f"{heads[name]}\n" for name in heads]
-    causes = build(BASE + "".join(actions))
+    causes = Dynamics(theory_of(BASE + "".join(actions)))
     calls = [("a", args) for args in product(range(3), repeat=2)] + [("b", (number,)) for number in range(-1, 4)]
     for name, args in calls:
         after_axiom = axiom.progress(state, name, args)
@@ -230,7 +217,7 @@ def test_an_axiom_means_what_the_equivalent_clauses_mean(cases: list[Line], stat
 )
 def test_an_axiom_leaves_open_what_the_equivalent_clauses_leave_open(lines: str, clauses: str) -> None:
     cases = "".join(f"    {line}\n" for line in lines.splitlines())
-    axiom = build(f"{BASE}action a(p: t, q: t)\naxiom big(f):\n{cases}    otherwise unchanged\n")
-    causes = build(f"{BASE}action a(p: t, q: t):\n    {clauses}\n")
+    axiom = Dynamics(theory_of(f"{BASE}action a(p: t, q: t)\naxiom big(f):\n{cases}    otherwise unchanged\n"))
+    causes = Dynamics(theory_of(f"{BASE}action a(p: t, q: t):\n    {clauses}\n"))
     for args in product(range(3), repeat=2):
         assert axiom.progress(axiom.initial(), "a", args) == causes.progress(causes.initial(), "a", args)

@@ -26,7 +26,7 @@ from golc.runtime.loop.executive import Executive
 from golc.runtime.loop.happenings import Begun, End, Happening, TakenIn
 from golc.runtime.loop.inbox import Inbox, Report
 from golc.runtime.loop.policy import Policy
-from golc.runtime.rcxsim.line import Line, LineOptions
+from golc.runtime.rcxsim.line import LineOptions
 from golc.runtime.rcxsim.machine.options import Firmware, Options
 from golc.runtime.rcxsim.machine.simulator import build
 from golc.runtime.rcxsim.trace import Trace
@@ -35,6 +35,7 @@ from golc.runtime.rcxsim.world.worldfile import parse_world
 from golc.theory.ground import read_exogenous
 from golc.theory.theory import Action, BasicActionTheory
 from golc.theory.types import show_call
+from tests.rcxsim.virtual_port import VirtualPort
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -145,9 +146,7 @@ CASES: dict[str, tuple[tuple[str, str], ...]] = {
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_the_robot_does_what_was_recorded(
-    name: str, program: Callable[[Target], Image], virtual_port: Callable[[Line], Transport]
-) -> None:
+def test_the_robot_does_what_was_recorded(name: str, program: Callable[[Target], Image]) -> None:
     recorded = json.loads((ROOT / "tests/cases" / f"{name}.json").read_text())
     theory = load(DELIVERY / "delivery.gl")
     recording = Recording(theory, recorded["trace"])
@@ -157,7 +156,7 @@ def test_the_robot_does_what_was_recorded(
         text = text.replace(old, new)
     world = World(parse_world(Source("delivery.toml", text)), 0, Trace())
     line, _ = build(Firmware.V2, program(Target.RCX2), world, Options(), LineOptions(), Trace())
-    transport = virtual_port(line)
+    transport = VirtualPort(line)
     brick = RcxDevice(number_device(theory, theory.devices[0], Findings()), Link("virtual", transport=transport))
     inbox = RecordedInbox(recording, brick, transport)
     happened: list[Happening] = []

@@ -31,7 +31,7 @@ class Actions(Lines):
 
     def clauses(self) -> tuple[tree.Clause, ...]:
         """The lines of an action."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._clause)
+        return self.lines(self._clause)
 
     def _clause(self, node: ast.stmt) -> Iterator[tree.Clause]:
         if isinstance(node, ast.For):
@@ -60,7 +60,7 @@ class Actions(Lines):
             binders = self.binders(node.target, [node.iter])
         else:
             assert isinstance(node.iter, ast.Call)
-            binders = self.binders(node.target, self.arguments(node.iter, len(node.iter.args), ("where",)))
+            binders = self.binders(node.target, self.every_argument(node.iter, ("where",)))
             where = self.keyword(node.iter, "where")
         names = [each.id for each in ast.walk(node.target) if isinstance(each, ast.Name)]
         with self.scope(names):

@@ -3,21 +3,21 @@
 from __future__ import annotations
 
 import ast
-import contextlib
-from abc import ABC, abstractmethod
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
-from golc.diagnostics import Code, Span
-from golc.embed.errors import meaningless, refused
+from golc.diagnostics import Span
+from golc.embed.errors import meaningless
 from golc.embed.names import golc_name, new_name
-from golc.embed.reading.evaluate import NOT_PYTHON, Evaluator
-from golc.embed.reading.functions import Function
+from golc.embed.reading.arguments import Arguments
+from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.types import (
-    TypeForm,
+    TypeObject,
     element,
     enum,
+    enumeration,
     interval,
+    is_built_in,
     join_nodes,
     optional,
     type_node,
@@ -26,30 +26,8 @@ from golc.embed.types import (
 from golc.syntax import tree
 
 
-class Annotations(ABC):
-    """Translates the types of one function. ``bound`` are the variables of the language at the place."""
-
-    def __init__(self, function: Function) -> None:
-        self.function = function
-        self.bound: set[str] = {arg.arg for arg in function.parameters()}
-        self.python = Evaluator(function, self.bound.__contains__)
-
-    def span(self, node: Any) -> Span:
-        return self.function.place(node)
-
-    @contextlib.contextmanager
-    def scope(self, names: Sequence[str]) -> Iterator[None]:
-        """Some names are variables of the language while this lasts."""
-        new = [name for name in names if name not in self.bound]
-        self.bound.update(new)
-        try:
-            yield
-        finally:
-            self.bound.difference_update(new)
-
-    @abstractmethod
-    def expr(self, node: ast.expr) -> tree.Expr:
-        """A term or formula."""
+class Annotations(Arguments):
+    """Translates the types of one function."""
 
     def is_type(self, node: ast.expr) -> bool:
         """Whether an expression stands for a type."""
@@ -58,43 +36,50 @@ class Annotations(ABC):
             if any(called is form for form in (interval, enum, union, optional, range)):
                 return called is not range or len(node.args) < 3
         if isinstance(node, ast.Subscript):
-            return any(self.python(node.value) is kind for kind in (set, list))
+            return self._is_collection(node.value)
         if isinstance(node, ast.BinOp) and isinstance(node.op, ast.BitOr):
             return self.is_type(node.left)
         value = self.python(node)
-        return isinstance(value, (TypeForm, range)) or any(value is kind for kind in (bool, int, str, float))
+        return isinstance(value, (TypeObject, range)) or is_built_in(value)
 
     def type(self, node: ast.expr) -> tree.Type:
         """The type that an annotation or an argument stands for. Raises ``Refused``."""
         span = self.span(node)
         match node:
             case ast.BinOp(left=left, op=ast.BitOr(), right=right):
-                parts = [part for part in (left, right) if not _is_none(part)]
-                pieces: list[tree.Type] = []
-                for part in parts:
-                    found = self.type(part)
-                    pieces += found.pieces if isinstance(found, tree.UnionType) else [found]
-                return join_nodes(pieces, len(parts) == 1, span)
-            case ast.Subscript(value=base, slice=inner) if any(self.python(base) is kind for kind in (set, list)):
+                return self._union((left, right), span)
+            case ast.Subscript(value=base, slice=inner) if self._is_collection(base):
                 kind: Any = "set" if self.python(base) is set else "list"
                 return tree.CollectionType(kind, self.type(inner), span=span)
-            case ast.Call(func=function):
-                called = self.python(function)
-                if called is interval:
-                    low, high = self.arguments(node, 2)
-                    return tree.IntervalType(self.expr(low), self.expr(high), span=span)
-                if called is enum:
-                    args = self.arguments(node, len(node.args))
-                    return tree.EnumType(tuple(self._element(arg) for arg in args), span=span)
-                if called is union or called is optional:
-                    pieces = [self.type(arg) for arg in self.arguments(node, len(node.args))]
-                    return join_nodes(pieces, called is optional, span)
+            case ast.Call() if (form := self._form(node, span)) is not None:
+                return form
             case ast.Constant(value=str() as text):
                 return type_node(text, span)
         value = self.python(node)
         if value is NOT_PYTHON:
             raise meaningless("this is no type of the language", span, "write a declared type, `bool`, `int` …")
         return type_node(value, span)
+
+    def _is_collection(self, node: ast.expr) -> bool:
+        return any(self.python(node) is kind for kind in (set, list))
+
+    def _form(self, node: ast.Call, span: Span) -> tree.Type | None:
+        """A type that is the call of a word of the language, if it is one."""
+        called = self.python(node.func)
+        if called is interval:
+            low, high = self.arguments(node, 2)
+            return tree.IntervalType(self.expr(low), self.expr(high), span=span)
+        if called is enum:
+            return enumeration(tuple(self._element(arg) for arg in self.every_argument(node)), span)
+        if called is union:
+            return self._union(self.every_argument(node), span)
+        if called is optional:
+            return self._union([*self.arguments(node, 1), ast.Constant(None)], span)
+        return None
+
+    def _union(self, parts: Sequence[ast.expr], span: Span) -> tree.Type:
+        types = [part for part in parts if not (isinstance(part, ast.Constant) and part.value is None)]
+        return join_nodes([self.type(part) for part in types], len(types) < len(parts), span)
 
     def _element(self, node: ast.expr) -> tree.Ident | tree.Number:
         match node:
@@ -108,16 +93,17 @@ class Annotations(ABC):
         """The parameters of the function with their types."""
         found = []
         for arg in self.function.parameters():
-            name = new_name(
-                golc_name(arg.arg),
-                Span(self.span(arg).source, self.span(arg).start, self.span(arg).start + len(arg.arg)),
-            )
+            span = self.span(arg)
+            name = new_name(golc_name(arg.arg), Span(span.source, span.start, span.start + len(arg.arg)))
             if arg.annotation is None:
-                raise meaningless(
-                    f"the parameter `{arg.arg}` has no type", self.span(arg), f"write `{arg.arg}: station`"
-                )
-            found.append(tree.Parameter(name, self.annotation(arg.annotation), span=self.span(arg)))
+                raise meaningless(f"the parameter `{arg.arg}` has no type", span, f"write `{arg.arg}: station`")
+            found.append(tree.Parameter(name, self.annotation(arg.annotation), span=span))
         return tuple(found)
+
+    def result(self) -> tree.Type | None:
+        """The type of what the function returns, if it says that."""
+        returns = self.function.node.returns
+        return None if returns is None else self.annotation(returns)
 
     def annotation(self, node: ast.expr) -> tree.Type:
         """The type in an annotation, in which parameters are not known."""
@@ -127,24 +113,3 @@ class Annotations(ABC):
             return self.type(node)
         finally:
             self.bound.update(bound)
-
-    def arguments(self, node: ast.Call, count: int, named: Sequence[str] = ()) -> list[ast.expr]:
-        """The arguments by place of a call of a word, which are ``count``; those by name are among ``named``."""
-        for word in node.keywords:
-            if word.arg not in named:
-                known = ", ".join(f"`{each}=`" for each in named)
-                help_ = f"it takes {known}" if known else "it takes arguments by place only"
-                raise refused(Code.ARITY, f"`{ast.unparse(node.func)}` takes no `{word.arg}=`", self.span(word), help_)
-        if len(node.args) != count:
-            takes = f"{count} argument{'s' * (count != 1)}" if count else "no arguments"
-            message = f"`{ast.unparse(node.func)}` takes {takes} by place, not {len(node.args)}"
-            raise refused(Code.ARITY, message, self.span(node))
-        return node.args
-
-    def keyword(self, node: ast.Call, name: str) -> ast.expr | None:
-        """The argument of a call by name, if it is given."""
-        return next((word.value for word in node.keywords if word.arg == name), None)
-
-
-def _is_none(node: ast.expr) -> bool:
-    return isinstance(node, ast.Constant) and node.value is None

@@ -28,7 +28,7 @@ class Axioms(Lines):
 
     def cases(self) -> tuple[tree.After, ...]:
         """The lines of an axiom."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._case)
+        return self.lines(self._case)
 
     def _case(self, node: ast.stmt) -> Iterator[tree.After]:
         call, _ = self.call(node, "after")
@@ -61,7 +61,7 @@ class Axioms(Lines):
         if not isinstance(action, Named):
             raise meaningless("this is no action", self.span(node), "write an action: `after(move(x, y), …)`")
         new: list[str] = []
-        args = [self._pattern_arg(arg, new) for arg in (self.arguments(call, len(call.args)) if call else [])]
+        args = [self._pattern_arg(arg, new) for arg in (self.every_argument(call) if call else [])]
         ident = tree.Ident(action.name, span=self.span(named))
         return tree.Pattern(ident, tuple(args), span=self.span(node)), new
 

@@ -7,14 +7,12 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
-from golc.diagnostics import Diagnostic, Span, counted
-from golc.embed import words
+from golc.diagnostics import Diagnostic, Span
 from golc.embed.errors import Refused, meaningless
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.expressions import Expressions
 from golc.embed.reading.refusals import STATEMENTS
-from golc.embed.terms import elements
-from golc.syntax import tree
+from golc.embed.values import elements
 
 T = TypeVar("T")
 
@@ -78,7 +76,9 @@ class Bodies(Expressions):
     def listed(self, node: ast.expr) -> object:
         """What a loop of Python goes through: a value of Python, or a list that is written out."""
         if isinstance(node, (ast.Tuple, ast.List)):
-            return [part.value if isinstance(part, ast.Constant) else self.python(part) for part in node.elts]
+            return [
+                part.value if isinstance(part, ast.Constant) else self.python(part) for part in self.spread(node.elts)
+            ]
         return self.python(node)
 
     def _assign(self, target: ast.expr, value: object) -> None:
@@ -93,35 +93,6 @@ class Bodies(Expressions):
                     self._assign(part, each)
             case _:
                 raise meaningless("the values do not fit these names", self.span(target))
-
-    def call_of(self, node: ast.expr, *expected: words.Word) -> words.Word | None:
-        """The word that a call calls, if it is one of those expected."""
-        if not isinstance(node, ast.Call):
-            return None
-        called = self.python(node.func)
-        return called if isinstance(called, words.Word) and called in expected else None
-
-    def targets(self, node: ast.expr, ranges: Sequence[ast.expr]) -> list[ast.Name]:
-        """The variables of a ``for``, one for each range."""
-        parts = node.elts if isinstance(node, (ast.Tuple, ast.List)) else [node]
-        names = [part for part in parts if isinstance(part, ast.Name)]
-        if len(names) != len(parts) or len(names) != len(ranges):
-            message = f"{counted(len(parts), 'variable')} for {counted(len(ranges), 'type')}"
-            raise meaningless(message, self.span(node), "write as many names as types: `for x, y in pick(t, u)`")
-        return names
-
-    def binders(self, target: ast.expr, ranges: Sequence[ast.expr]) -> tuple[tree.Binder, ...]:
-        """The variables of a ``for`` with what they range over; a range may use the variables before it."""
-        names = self.targets(target, ranges)
-        made = []
-        new = []
-        for name, over in zip(names, ranges, strict=True):
-            made.append(self.binder(name, over))
-            if name.id not in self.bound:
-                self.bound.add(name.id)
-                new.append(name.id)
-        self.bound.difference_update(new)
-        return tuple(made)
 
     def no_else(self, node: ast.For | ast.While) -> None:
         """A loop of the language has no ``else``."""

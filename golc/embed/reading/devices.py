@@ -21,7 +21,7 @@ class Devices(Lines, Tables):
 
     def settings(self) -> tuple[tree.Binding | tree.Setting, ...]:
         """The lines of a device."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._setting)
+        return self.lines(self._setting)
 
     def _setting(self, node: ast.stmt) -> Iterator[tree.Binding | tree.Setting]:
         if isinstance(node, ast.For):
@@ -53,7 +53,7 @@ class Devices(Lines, Tables):
         ident = tree.Ident(action.name, span=self.span(bound.func if isinstance(bound, ast.Call) else bound))
         args = None
         if isinstance(bound, ast.Call) and bound.args:
-            args = tuple(self._bound_arg(arg) for arg in self.arguments(bound, len(bound.args)))
+            args = tuple(self._bound_arg(arg) for arg in self.every_argument(bound))
         given = {word.arg: word.value for word in call.keywords}
         timeout = None if "timeout" not in given else self.expr(given["timeout"])
         table = None if "table" not in given else self.table(given["table"])

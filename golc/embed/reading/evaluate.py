@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from types import BuiltinFunctionType
 
 from golc.diagnostics import Code, Label, UserError
+from golc.embed.asked import translating
+from golc.embed.cures import cure
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import code_span, frame_span
 from golc.embed.reading.functions import Function
-from golc.embed.terms import Term, translating, variable
-from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, enum, interval, optional, symbols, union
+from golc.embed.terms import Term, variable
+from golc.embed.types import TypeHandle, TypeObject, enum, interval, is_built_in, optional, symbols, symbols_of, union
+from golc.embed.values import is_unsettled
 from golc.embed.words import Value, Word
 from golc.theory.python_file import failure
 from golc.theory.suggest import did_you_mean
@@ -35,12 +38,7 @@ def _holds_terms(value: object) -> bool:
         return any(_holds_terms(each) for each in value)
     if isinstance(value, dict):
         return any(_holds_terms(each) for each in (*value.keys(), *value.values()))
-    return isinstance(value, (Term, Word, Value, TypeForm)) or _is_ours(value) or _is_type(value)
-
-
-def _is_type(value: object) -> bool:
-    """Whether a value is a class that is also a type of the language."""
-    return any(value is each for each in BUILT_IN)
+    return isinstance(value, (Term, Word, Value, TypeObject)) or _is_ours(value) or is_built_in(value)
 
 
 class Evaluator:
@@ -67,7 +65,9 @@ class Evaluator:
                 base = self(owner)
                 if isinstance(base, TypeHandle) and isinstance(node, ast.Attribute):
                     return self._symbol(base, node)
-                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or _is_type(base)
+                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or is_built_in(base)
+                if isinstance(node, ast.Subscript) and isinstance(base, (list, tuple, dict)):
+                    self._check_index(node, base.values() if isinstance(base, dict) else base)
                 return NOT_PYTHON if ours else self._run(node)
             case ast.Call(func=function):
                 called = self(function)
@@ -86,25 +86,35 @@ class Evaluator:
 
     def _symbol(self, base: TypeHandle, node: ast.Attribute) -> object:
         try:
-            names = base.symbols()
+            names = symbols_of(base)
         except UserError as error:
             (found,) = error.diagnostics
             raise refused(found.code, found.message, self.function.place(node), found.help) from None
         if node.attr not in names:
-            message = f"the type `{base.name}` has no symbol `{node.attr}`"
+            message = f"the type `{base}` has no symbol `{node.attr}`"
             raise refused(Code.UNKNOWN_NAME, message, self.function.place(node), did_you_mean(node.attr, names))
         return names[node.attr]
+
+    def _check_index(self, node: ast.Subscript, values: Iterable[object]) -> None:
+        """Raise ``Refused`` for the index of a Python list or dictionary that is not known yet."""
+        if not any(is_unsettled(self.name(each)) for each in free_names(node.slice)):
+            return
+        help_ = "make it a static, whose value is a table: `start = theory.static(…)`"
+        if any(map(is_unsettled, values)):
+            help_ = "go through the list itself, `for x in …`, or declare one fluent with a parameter for all of it"
+        message = "Python looks a term up at once, before there is a situation"
+        raise meaningless(message, self.function.place(node), help_)
 
     def _constant(self, node: ast.expr) -> bool:
         """Whether there are names in an expression that mean nothing in the language, and all in it is Python's."""
         values = [self.name(each) for each in free_names(node)]
-        return not all(_is_ours(value) or _is_type(value) for value in values) and self._plain(node)
+        return not all(_is_ours(value) or is_built_in(value) for value in values) and self._plain(node)
 
     def _plain(self, node: ast.expr) -> bool:
         match node:
             case ast.Constant():
                 return True
-            case ast.Await() | ast.Yield() | ast.YieldFrom() | ast.NamedExpr():
+            case ast.Await() | ast.Yield() | ast.YieldFrom() | ast.NamedExpr() | ast.Starred():
                 return False
             case ast.BinOp(left=left, right=right):
                 return self._plain(left) and self._plain(right)
@@ -130,7 +140,8 @@ class Evaluator:
             raise
         except BaseException as error:
             message = f"Python fails here with {failure(error)}"
-            raise refused(Code.PYTHON_RAISED, message, self.function.place(node), labels=_where(error)) from None
+            help_ = cure(error, self.function.source.name)
+            raise refused(Code.PYTHON_RAISED, message, self.function.place(node), help_, _where(error)) from None
 
 
 def _where(error: BaseException) -> tuple[Label, ...]:

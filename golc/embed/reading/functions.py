@@ -149,6 +149,9 @@ def _says_nothing(node: ast.stmt) -> bool:
 def translated(function: object) -> Function:
     """The function that a decorator has been given, with its source. Raises ``Refused`` if it cannot be translated."""
     span = caller()
+    if isinstance(function, str):
+        message = "the name of what is declared is that of its function, or given by `name=`"
+        raise meaningless(message, span, f'write `name="{function}"`')
     if not isinstance(function, FunctionType):
         raise meaningless("only a function written with `def` can be translated", span)
     code = function.__code__

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
+from types import FunctionType
 from typing import Any
 
 from golc.embed import words
 from golc.embed.errors import meaningless
-from golc.embed.reading.bodies import Bodies
+from golc.embed.reading.bodies import Bodies, T
 from golc.syntax import tree
 
 
 class Lines(Bodies):
     """Translates lines of a declaration's body."""
+
+    def lines(self, translate: Callable[[ast.stmt], Iterable[T]]) -> tuple[T, ...]:
+        """What the lines of the body become; ``pass`` is the body of one that has none."""
+        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], translate)
 
     def call(
         self, node: ast.stmt, allowed: str, meant: Mapping[type[ast.stmt], str] | None = None
@@ -26,6 +31,9 @@ class Lines(Bodies):
             called = self.python(node.value.func)
             if isinstance(called, words.Word) and called.name in allowed.split():
                 return node.value, called
+            if isinstance(called, FunctionType):
+                help_ = f"write the lines of `{called.__name__}` here"
+                raise meaningless("a function of Python does nothing in a declaration", self._head(node), help_)
         help_ = "write " + ", ".join(f"`{name}(…)`" for name in allowed.split())
         raise meaningless("this line has no meaning here", self._head(node), (meant or {}).get(type(node), help_))
 

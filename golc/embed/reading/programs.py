@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 from collections.abc import Iterator, Mapping, Sequence
+from types import FunctionType
 from typing import Any
 
 from golc.diagnostics import Code, Span
@@ -81,6 +82,9 @@ class Programs(Bodies):
         if isinstance(word, words.Word) and word in _SPOKEN:
             (text,) = self.arguments(node, 1)
             return _SPOKEN[word](self.message(text), span=span)  # type: ignore[no-any-return]
+        if isinstance(word, FunctionType) and self.python(node) is None:
+            help_ = f"put `@theory.proc` above `def {word.__name__}`, or write its lines here"
+            raise meaningless("a function of Python does nothing in a program", span, help_)
         return tree.Call(self.application(node), span=span)
 
     def _wait(self, node: ast.Call, span: Span) -> tree.Statement:
@@ -151,7 +155,7 @@ class Programs(Bodies):
         assert isinstance(node.iter, ast.Call)
         if not node.iter.args:
             raise refused(Code.ARITY, f"`{word.name}` needs a type or a list to go through", self.span(node.iter))
-        ranges = self.arguments(node.iter, len(node.iter.args), ("where",))
+        ranges = self.every_argument(node.iter, ("where",))
         return self.binders(node.target, ranges), self.keyword(node.iter, "where")
 
     def _names(self, target: ast.expr) -> list[ast.Name]:

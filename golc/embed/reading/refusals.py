@@ -32,12 +32,15 @@ STATEMENTS: Mapping[type[ast.stmt], tuple[str, str | None]] = {
 EXPRESSIONS: Mapping[type[ast.expr], tuple[str, str | None]] = {
     ast.Lambda: ("a lambda has no meaning in a translated function", "write `any(… for n in station)`"),
     ast.NamedExpr: ("`:=` has no meaning in a theory", "write `with let(…) as x:` in a program"),
-    ast.Dict: ("a dictionary has no meaning here", "a table is all that a static returns"),
-    ast.DictComp: ("a dictionary has no meaning here", "make it outside the function and return it from a static"),
+    ast.Dict: ("a dictionary has no meaning here", "declare a static that returns it, and write `start(x)` here"),
+    ast.DictComp: (
+        "a dictionary has no meaning here",
+        "declare a static with it as its value, and write `start(x)` here",
+    ),
     ast.Await: ("`await` has no meaning in a theory", "write `wait(until=φ)`"),
     ast.Yield: ("`yield` has no meaning in a theory", None),
     ast.YieldFrom: ("`yield` has no meaning in a theory", None),
-    ast.Starred: ("`*` spreads no terms", "write the arguments one by one"),
+    ast.Starred: ("`*` spreads only lists of Python", "write the terms one by one"),
     ast.Slice: ("a list has no slices", "write `first(x)`, `rest(x)` or `x[i]`"),
     ast.GeneratorExp: ("a generator has no meaning here", "write `any(…)`, `all(…)`, `sum(…)`, `count(…)` or `[…]`"),
 }
@@ -45,7 +48,7 @@ EXPRESSIONS: Mapping[type[ast.expr], tuple[str, str | None]] = {
 
 OPERATORS: Mapping[type[ast.operator], tuple[str, str]] = {
     ast.Div: ("`/` has no meaning on terms", "write `//`, which rounds down"),
-    ast.Pow: ("`**` has no meaning on terms", "multiply, or compute it in Python outside the function"),
+    ast.Pow: ("`**` has no meaning on terms", "multiply: `x * x`; what Python is to compute can be an extern"),
     ast.MatMult: ("`@` has no meaning on terms", "write `*`"),
     ast.LShift: ("`<<` has no meaning on terms", "multiply by a power of two"),
     ast.RShift: ("`>>` has no meaning on terms", "divide with `//`"),

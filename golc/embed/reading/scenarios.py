@@ -18,7 +18,7 @@ class Scenarios(Lines):
 
     def items(self) -> tuple[tree.ScenarioItem, ...]:
         """The lines of a scenario."""
-        return self.each([node for node in self.function.body() if not isinstance(node, ast.Pass)], self._item)
+        return self.lines(self._item)
 
     def _item(self, node: ast.stmt) -> Iterator[tree.ScenarioItem]:
         if isinstance(node, ast.For):
@@ -39,9 +39,7 @@ class Scenarios(Lines):
                 yield made(self.expr(argument), span=span)
 
     def _events(self, call: ast.Call, span: Span) -> tree.OnEvents:
-        events = tuple(
-            self.application(arg) for arg in self.arguments(call, len(call.args), ("after", "when", "waiting"))
-        )
+        events = tuple(self.application(arg) for arg in self.every_argument(call, ("after", "when", "waiting")))
         if not events or len(call.keywords) != 1:
             help_ = "write `on(event(), after=n)`, `on(event(), when=φ)` or `on(event(), waiting=True)`"
             raise meaningless("`on` needs events and a time", span, help_)
@@ -60,7 +58,7 @@ class Scenarios(Lines):
             self.arguments(call, 0, ("actions",))
             if not isinstance(actions, (ast.List, ast.Tuple)):
                 raise meaningless("`actions` is a list", self.span(actions), "write `expect(actions=[a(), b(1)])`")
-            return tree.ExpectActions(tuple(self.application(each) for each in actions.elts), span=span)
+            return tree.ExpectActions(tuple(self.application(each) for each in self.spread(actions.elts)), span=span)
         (argument,) = self.arguments(call, 1, (*relations, "actions"))
         if not call.keywords:
             return tree.ExpectFormula(self.expr(argument), span=span)

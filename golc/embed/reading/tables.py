@@ -1,14 +1,12 @@
-"""Dictionaries as tables."""
+"""Dictionaries in translated functions as tables."""
 
 from __future__ import annotations
 
 import ast
-from typing import Any
 
-from golc.diagnostics import Span
 from golc.embed.errors import meaningless
 from golc.embed.reading.bodies import Bodies
-from golc.embed.terms import expr
+from golc.embed.tables import table_of
 from golc.syntax import tree
 
 
@@ -37,12 +35,3 @@ class Tables(Bodies):
     def is_table(self, node: ast.expr) -> bool:
         """Whether a static returns a table."""
         return isinstance(node, ast.Dict) or isinstance(self.python(node), dict)
-
-
-def table_of(value: dict[Any, Any], span: Span) -> tree.Table:
-    """A dictionary of Python as a table."""
-    entries = []
-    for key, each in value.items():
-        parts = key if isinstance(key, tuple) else (key,)
-        entries.append(tree.TableEntry(tuple(expr(part, span) for part in parts), expr(each, span), span=span))
-    return tree.Table(tuple(entries), span=span)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from golc.embed import Theory, after, bind, branch, causes, cost, each, enum, expect, given, interval, on, poss, run
 from golc.embed import choose, count, guard, interrupts, known, let, one_of, otherwise, pick, say, search, senses
-from golc.embed import setting, star, test, together, unknown, until, var, wait, within
+from golc.embed import optional, setting, star, test, together, union, unknown, until, var, wait, within
 
 theory = Theory("mistakes")
 station = theory.type("station", interval(1, 6))
@@ -12,6 +12,8 @@ moving, stopped = phase
 location = theory.fluent("location", station, 3)
 motion = theory.fluent("motion", phase, stopped)
 TABLE = {1: 2}
+LENGTHS = [2, 3]
+FLUENTS = [location, motion]
 
 
 @theory.fluent
@@ -25,6 +27,10 @@ def twice(term):
 
 def fails(term):
     return term.nothing
+
+
+def moves():
+    go(1)
 
 
 @theory.define
@@ -52,7 +58,7 @@ def d2():
 def d3():
     return location ** 2
 #! 12+13 GL143 `**` has no meaning on terms
-#! help: multiply, or compute it in Python outside the function
+#! help: multiply: `x * x`; what Python is to compute can be an extern
 
 
 @theory.define
@@ -101,7 +107,7 @@ def d9():
 def d10():
     return {1: location}
 #! 12+13 GL143 a dictionary has no meaning here
-#! help: a table is all that a static returns
+#! help: declare a static that returns it, and write `start(x)` here
 
 
 @theory.define
@@ -114,8 +120,36 @@ def d11():
 @theory.define
 def d12():
     return [*phase]
-#! 13+6 GL143 `*` spreads no terms
-#! help: write the arguments one by one
+#! 13+6 GL143 `*` spreads only lists of Python
+#! help: write the terms one by one
+
+
+@theory.define
+def max_():
+#! 5+4 GL006 `max` is a word of the language and cannot be a name
+#! help: choose another name, for example `the_max`
+    return True
+
+
+@theory.define
+def d_list(n: station):
+    return LENGTHS[n] == 3 and TABLE[1] == LENGTHS[0]
+#! 12+10 GL143 Python looks a term up at once, before there is a situation
+#! help: make it a static, whose value is a table: `start = theory.static(…)`
+
+
+@theory.define
+def d_handles():
+    return any(FLUENTS[n] for n in range(2))
+#! 16+10 GL143 Python looks a term up at once, before there is a situation
+#! help: go through the list itself, `for x in …`, or declare one fluent with a parameter for all of it
+
+
+@theory.define
+def d_enum(n: enum()):
+#! 15+6 GL143 an enumeration has at least one element
+#! help: write `enum("red", "green")`
+    return True
 
 
 @theory.define
@@ -508,6 +542,9 @@ def go(n: station):
 #! 5+14 GL143 this line has no meaning here
 #! help: write `for n in station:` with `causes(…)` in it
         causes(free(n), True)
+    moves()
+#! 5+7 GL143 a function of Python does nothing in a declaration
+#! help: write the lines of `moves` here
     test(free(n))
 #! 5+13 GL143 this line has no meaning here
 #! help: write `poss(…)`, `causes(…)`, `senses(…)`, `cost(…)`
@@ -527,6 +564,9 @@ def control(n: station):
     go
 #! 5+2 GL143 this does nothing
 #! help: write `go()`
+    moves()
+#! 5+7 GL143 a function of Python does nothing in a program
+#! help: put `@theory.proc` above `def moves`, or write its lines here
     go(n)()
 #! 5+5 GL143 this cannot be called
     location == 3
@@ -787,3 +827,16 @@ def g_each(n: station):
 #! 12+10 GL143 `n` is a parameter, and no goal has any
 #! help: write `… for n in station` in it; with a default it is a constant of Python
     return free(n)
+
+
+@theory.fluent
+def no_alternatives(n: union()):
+#! 24+7 GL143 there is no type to be joined
+#! help: write `station | None` or `station | enum("table")`
+    return True
+
+
+@theory.fluent
+def two_bases(n: optional(station, phase)):
+#! 18+24 GL015 `optional` takes 1 argument by place, not 2
+    return True
