@@ -35,21 +35,23 @@ def mended(part: Span, start: str, end: str) -> Mended:
     """Read a part of a source from a start symbol, with ``end`` behind it, from mistake to mistake.
 
     What is wrong is put right where a fix does that, which is what the writer obviously meant; elsewhere it is passed
-    over, and from there on fixes are not proposed. The reading fails if neither leads on.
+    over, and to the end of that line no fix is proposed. The reading fails if neither leads on.
     """
     result = Mended(Reading(Draft.of(part, end), start))
-    patience, guessed = PATIENCE, False
+    patience, passed = PATIENCE, 0
     while (failed := result.reading).error is not None and patience > 0:
         patience -= failed.place
-        finding = failed.draft.finding(failed.diagnosis)
+        finding, fix = failed.draft.finding(failed.diagnosis), failed.diagnosis.fix
         following = _with_fix(failed)
-        if guessed or following is None:
+        if following is None or finding.span.line == passed:
             finding = replace(finding, fix=None)
         if not _follows(result, finding):
             result.mistakes.append((finding, failed.error if isinstance(failed.error, Failure) else None))
-        if following is None:
-            guessed, following = True, _without(failed, result.unread)
-        elif failed.diagnosis.fix and not any(edit.text for edit in failed.diagnosis.fix.edits):
+        if following is None and (shorter := _without(failed)) is not None:
+            following, omitted = shorter
+            result.unread.append(omitted)
+            passed = Span(part.source, omitted.end, omitted.end).line
+        elif fix is not None and not any(edit.text for edit in fix.edits):
             result.unread.append(finding.span)
         if following is None:
             break
@@ -84,12 +86,11 @@ def _with_fix(failed: Reading) -> Reading | None:
     return fixed if found.start > end or (found.start == end < found.end) else None
 
 
-def _without(failed: Reading, unread: list[Span]) -> Reading | None:
-    """The reading of a text of which as little as possible is passed over, if that leads on."""
+def _without(failed: Reading) -> tuple[Reading, Span] | None:
+    """The reading of a text of which as little as possible is passed over, if that leads on, and what that is."""
     for omission in omissions(failed):
         tried = Reading(failed.draft.edited(omission.edits), failed.start)
         behind = moved(omission.span.end, omission.edits) - failed.draft.whole.start
         if tried.error is None or (tried.place > behind and tried.found.start > failed.found.start):
-            unread.append(failed.draft.back(omission.span))
-            return tried
+            return tried, failed.draft.back(omission.span)
     return None

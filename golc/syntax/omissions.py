@@ -20,6 +20,7 @@ HEADS = ("if {}", "on {}", "elif {}", "else", "or", "and", "over")
 """What a line with a block below it may be instead of what it is."""
 
 _WORD = re.compile("[a-z]+")
+_HEAD = re.compile(r":\s*(#.*)?$")
 _COLON = re.compile(r":(?!=)")
 _BRACKET = re.compile(r'"(?:\\[^\n]|[^"\\\n])*"?|#[^\n]*|([(\[{])|([)\]}])')
 
@@ -162,7 +163,7 @@ def _ends(text: _Text, failed: Failure) -> Iterator[int]:
             break
     colons = [found.start() for found in _COLON.finditer(text.text, place, text.line_end(place))]
     yield from dict.fromkeys(reversed(colons))
-    yield text.line_end(place)
+    yield text.block_end(text.line_start(place), text.line_end(place))
 
 
 def _lines(text: _Text, failed: Failure) -> Iterator[Omission]:
@@ -180,7 +181,7 @@ def _lines(text: _Text, failed: Failure) -> Iterator[Omission]:
             if below > end and kind in DECLARATIONS:
                 yield text.omission(0, end, f"{kind} {name}:")
             continue
-        if below > end:
+        if below > end and _HEAD.search(text.text[start:end]):
             for head in (*_heads(text.text[start:end], name), *(head.format(name) for head in HEADS)):
                 yield text.omission(start, end, f"{indentation}{head}:")
         for line in (name, "", f"poss {name}", f"expect {name}"):

@@ -68,7 +68,7 @@ def test_what_can_be_read_is_read() -> None:
     assert [node.span.text.split()[0] for node in file.declarations] == (
         ["type", "fluent", "fluent", "action", "action", "define", "proc", "acton", "goal", "device"]
     )
-    assert [span.text for span in file.unread] == ["const n: 3\n", "fluent open(d: door = true\n\n", "1 < at < 3"]
+    assert [span.text for span in file.unread] == ["const n: 3\n", "fluent open(d: door = true\n\n", ".", "1 < at < 3"]
 
 
 def test_the_places_of_what_was_read_are_those_of_the_file() -> None:
@@ -77,7 +77,7 @@ def test_the_places_of_what_was_read_are_those_of_the_file() -> None:
     assert file is not None
     places = [(node.span.line, node.span.text) for node in file.declarations]
     assert (6, "fluent ok: station = 1") in places
-    assert (16, "define done := at = 1") in places
+    assert (16, "define done := at = 1.") in places
     assert (18, "proc control:\n    while not done\n        go(1)") in places
 
 
