@@ -114,6 +114,9 @@ def missing_operator(failure: Failure) -> Diagnostic | None:
         return failure.finding(Code.MISSING, message, failure.span(failure.previous), help)
     if failure.kind not in STARTS or "AND" not in failure.accepts or failure.previous is None:
         return None
+    if failure.previous in ("and", "or", "implies", "iff", "in", "if"):
+        message = f"an expression is missing before `{failure.previous}`"
+        return failure.finding(Code.MISSING, message, failure.span(failure.previous), "write what belongs there")
     between = "an operator or a comma" if "COMMA" in failure.accepts else "an operator"
     help = "write what joins them" + ("" if failure.brackets else ", or begin another line")
     if "WHEN" in failure.accepts:

@@ -12,9 +12,13 @@ from dataclasses import dataclass
 from golc.diagnostics import Edit, Span
 from golc.syntax.failure import LAYOUT, Failure, wants
 from golc.syntax.fixes import INDENT
+from golc.syntax.keywords import closest
 from golc.syntax.layout import CLOSING, OPENING, LayoutError
 from golc.syntax.reading import Reading
-from golc.syntax.words import DECLARATIONS
+from golc.syntax.words import DECLARATIONS, OTHER_NAMES
+
+STAND_IN = "unread"
+"""What stands for a part that is passed over, with underscores behind it if the text has this name."""
 
 HEADS = ("if {}", "on {}", "elif {}", "else", "or", "and", "over")
 """What a line with a block below it may be instead of what it is."""
@@ -52,7 +56,7 @@ class _Text:
     def __init__(self, whole: Span) -> None:
         self.whole = whole
         self.text = whole.text
-        self.name = "unread"
+        self.name = STAND_IN
         while self.name in self.text:
             self.name += "_"
 
@@ -98,11 +102,12 @@ class _Text:
 
 
 def _other_indentation(text: _Text, error: LayoutError) -> Iterator[Omission]:
-    """A line between two levels belongs to the one or the other."""
-    if error.kind == "dedent":
-        width, line = error.end - error.start, text.span(error.start, text.line_end(error.end))
-        for level in sorted(error.levels, key=lambda level: (abs(level - width), -level)):
-            yield Omission(line, (Edit(text.span(error.start, error.end), " " * level),))
+    """A line between two levels, or with a tab, belongs to the one or the other, or begins a block."""
+    start = text.line_start(error.start)
+    width, line = len(text.text[start : error.end].expandtabs(4)), text.span(start, text.line_end(error.end))
+    deeper = [error.levels[-1] + INDENT] if error.kind == "tab" else []
+    for level in sorted([*error.levels, *deeper], key=lambda level: (abs(level - width), -level)):
+        yield Omission(line, (Edit(text.span(start, error.end), " " * level),))
 
 
 def _needless_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
@@ -156,6 +161,8 @@ def _beginnings(failed: Failure) -> Iterator[int]:
 
 def _ends(text: _Text, failed: Failure) -> Iterator[int]:
     depth, place = len(failed.brackets), failed.place
+    if depth and (first := text.line_end(failed.brackets[0].start_pos or 0)) < place:
+        yield first
     for found in _BRACKET.finditer(text.text, place) if depth else ():
         depth += (found[1] is not None) - (found[2] is not None)
         if depth == 0:
@@ -177,15 +184,22 @@ def _lines(text: _Text, failed: Failure) -> Iterator[Omission]:
             continue
         below = text.block_end(start, end)
         if start == 0:
-            kind = text.text.split(maxsplit=1)[0]
-            if below > end and kind in DECLARATIONS:
+            kind = _kind(text.text)
+            if below > end and kind is not None:
                 yield text.omission(0, end, f"{kind} {name}:")
             continue
         if below > end and _HEAD.search(text.text[start:end]):
             for head in (*_heads(text.text[start:end], name), *(head.format(name) for head in HEADS)):
                 yield text.omission(start, end, f"{indentation}{head}:")
-        for line in (name, "", f"poss {name}", f"expect {name}"):
+        for line in (name, "", f"poss {name}", f"expect {name}", "otherwise unchanged"):
             yield text.omission(start, below, indentation + line)
+
+
+def _kind(text: str) -> str | None:
+    """The word that begins a declaration, or the one that it probably means."""
+    found = _WORD.match(text)
+    word = "" if found is None else found[0]
+    return word if word in DECLARATIONS else OTHER_NAMES.get(word) or closest(word, DECLARATIONS)
 
 
 def _heads(line: str, name: str) -> Iterator[str]:

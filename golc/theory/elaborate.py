@@ -11,8 +11,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-from golc.diagnostics import Code, Findings, Label, Source, Span
+from golc.diagnostics import Code, Diagnostic, Findings, Label, Source, Span
 from golc.syntax import tree
+from golc.syntax.omissions import STAND_IN
 from golc.syntax.words import RESERVED
 from golc.theory import elaborate_actions as actions
 from golc.theory import elaborate_statements as programs
@@ -45,6 +46,8 @@ from golc.theory.types import Type
 from golc.theory.unfolding import check_unfolding
 
 T = TypeVar("T")
+
+_STAND_IN = re.compile(f"`({STAND_IN}_*)`")
 
 _NAMELESS = re.compile(
     r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal|let|for|pick|on some)"
@@ -81,7 +84,7 @@ def elaborate(
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
-    findings.diagnostics += [finding for finding in found.diagnostics if not _is_unread(finding.span, file.unread)]
+    findings.diagnostics += [finding for finding in found.diagnostics if not _is_about(finding, file.unread)]
     return None if findings.has_errors else theory
 
 
@@ -93,9 +96,12 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
-def _is_unread(span: Span, unread: Iterable[Span]) -> bool:
-    """Whether a place lies in what has been passed over, or is that of something which holds a part of that."""
-    return any(
+def _is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:
+    """Whether a finding is about what has been passed over: it lies in that, or it is about something which holds a
+    part of it, or it speaks of the name that stands for it."""
+    span = finding.span
+    named = _STAND_IN.search(finding.message)
+    return (named is not None and named[1] not in span.source.text) or any(
         span.source is each.source
         and ((each.start <= span.start and span.end <= each.end) or (span.start <= each.start and each.end <= span.end))
         for each in unread
