@@ -69,6 +69,10 @@ class Span:
         """From the start of this span to the end of the other one."""
         return Span(self.source, self.start, other.end)
 
+    def either(self, golc: str, python: str) -> str:
+        """Of two texts the one in the form in which this place is written: golc's own, or Python."""
+        return python if self.source.python else golc
+
     def __str__(self) -> str:
         return f"{self.source.name}:{self.line}:{self.column}"
 
@@ -314,6 +318,12 @@ class GolcError(Exception):
     """The base of every error that golc raises on purpose; ``exit_code`` is what the command line ends with."""
 
     exit_code = 70
+
+    def _render_traceback_(self) -> list[str]:
+        """What a notebook shows in place of a traceback."""
+        from golc.notebook import error_lines
+
+        return error_lines(self)
 
 
 def _rendered(diagnostics: tuple[Diagnostic, ...]) -> str:

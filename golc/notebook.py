@@ -5,11 +5,14 @@ Whatever stands in a domain is text here, never markup.
 
 from __future__ import annotations
 
+import linecache
+import traceback
 from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
 from golc.api.contents import tables
+from golc.embed.places import source_of
 from golc.planning.plans import Plan, answers
 from golc.program.labels import Act
 from golc.rendering import render
@@ -21,7 +24,7 @@ if TYPE_CHECKING:
     from golc.api.report import Report
     from golc.api.state import State
     from golc.api.unfinished import Unfinished
-    from golc.diagnostics import Diagnostic
+    from golc.diagnostics import Diagnostic, GolcError
     from golc.runtime.record import Run
 
 MOST = 200
@@ -52,7 +55,10 @@ def state_html(state: State) -> str:
 
 
 def plan_html(plan: Plan) -> str:
-    """A numbered list of steps; below a step that senses, what it may answer, each with the rest of the plan."""
+    """A numbered list of steps; below a step that senses, what it may answer, each with the rest of the plan.
+
+    The cost of a plan stands below, if it has one.
+    """
     if not plan.steps:
         return _div("<p>nothing is to be done</p>")
     parts: list[str] = []
@@ -73,7 +79,7 @@ def plan_html(plan: Plan) -> str:
             parts.append(" …")
         elif part.cases:
             stack += ["</ul>", *_cases(part, first + len(steps)), "<ul>"]
-    return _div("".join(parts))
+    return _div("".join(parts), "" if plan.cost is None else f"<p>cost {escape(show(plan.cost))}</p>")
 
 
 def _cases(part: Plan, after: int) -> Iterator[str | tuple[Plan, int]]:
@@ -102,6 +108,16 @@ def report_html(report: Report) -> str:
 
 def _findings(findings: Sequence[Diagnostic]) -> Iterator[str]:
     return (f"<pre>{escape(render(finding))}</pre>" for finding in findings[:MOST])
+
+
+def error_lines(error: GolcError) -> list[str]:
+    """The lines of an error: where in cells and files outside golc it was met, and what it says."""
+    lines: list[str] = []
+    for frame, number in traceback.walk_tb(error.__traceback__):
+        if str(frame.f_globals.get("__name__")).partition(".")[0] not in ("golc", "IPython"):
+            file = frame.f_code.co_filename
+            lines += [f"{source_of(file).name}, line {number}:", f"    {linecache.getline(file, number).strip()}"]
+    return [*lines, *str(error).splitlines()]
 
 
 def _values(family: Family) -> str:

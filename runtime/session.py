@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from contextlib import ExitStack, closing
 from pathlib import Path
 
-from golc.diagnostics import Findings, Source, Span, UserError
+from golc.diagnostics import Findings, Source, Span, UserError, counted
 from golc.planning.planner import Executable, executable
 from golc.runtime.clock import Clock
 from golc.runtime.connection import Connection
@@ -77,7 +77,7 @@ class _Session:
         self.greet(executive)
         outcome = executive.run()
         if pending := timetable.pending:
-            conversation.say(f"the schedule still had {pending} event{'' if pending == 1 else 's'} to come")
+            conversation.say(f"the schedule still had {counted(pending, 'event')} to come")
         return outcome
 
     def observers(self, ready: Executable, stack: ExitStack) -> list[Observer]:

@@ -11,8 +11,9 @@ from golc.program.blame import Blocked, obstacles, valued
 from golc.program.labels import Act, Expect
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
-from golc.theory.fitting import MOST_INSTANCES, combinations, describe
+from golc.theory.fitting import MOST_INSTANCES, combinations
 from golc.theory.foreign import golc_value
+from golc.theory.forms import describe
 from golc.theory.ground import Call, read_action
 from golc.theory.theory import Action
 from golc.theory.types import Value, show
@@ -96,7 +97,7 @@ def _results(dynamics: Dynamics, action: Action, call: Call, sensed: Sequence[ob
     """Sensing results as golc's values, one for each term that is sensed."""
     senses = action.senses
     if len(sensed) != len(senses):
-        what = ", ".join([f"`{' '.join(term.span.text.split())}`: {describe(term.type)}" for term in senses])
+        what = ", ".join([f"`{' '.join(term.span.text.split())}`: {describe(term.type, term.span)}" for term in senses])
         problem = f"`{dynamics.call(call.action, call.args)}` senses {what or 'nothing'}"
         problem += f"; {counted(len(sensed), 'value')} given" if sensed else ", and the value is not known"
         help_ = "say after the action what it senses: do(state, action, value)" if senses else None
@@ -104,7 +105,8 @@ def _results(dynamics: Dynamics, action: Action, call: Call, sensed: Sequence[ob
     results = tuple([golc_value(value, term.type) for value, term in zip(sensed, senses, strict=True)])
     for given, value, term in zip(sensed, results, senses, strict=True):
         if value not in term.type:
-            raise UserError(_diagnostic(call, f"the sensed value {given!r} is outside {describe(term.type)}"))
+            type_ = describe(term.type, term.span)
+            raise UserError(_diagnostic(call, f"the sensed value {given!r} is outside {type_}"))
     return results
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, Span, UserError
 from golc.nqc.toolchain import Target
+from golc.theory.forms import add_a_brick
 from golc.theory.theory import BasicActionTheory, Device
 
 
@@ -25,6 +26,6 @@ def chosen(theory: BasicActionTheory, name: str | None) -> list[Device]:
             raise ValueError(f"there is no brick {name!r}; there is {known}")
     if not bricks:
         message = f"the domain `{theory.name}` has no device of kind `rcx`, for which a program could be generated"
-        help_ = 'add a block `device rcx "behaviours.nqc":` with the actions that the brick does'
-        raise UserError(Diagnostic(Code.NO_DEVICE, message, Span(theory.source, 0, 0), help=help_))
+        place = Span(theory.source, 0, 0)
+        raise UserError(Diagnostic(Code.NO_DEVICE, message, place, help=add_a_brick(place)))
     return bricks

@@ -168,7 +168,7 @@ class Theory(Declared):
 
     def _raw(self, state: State) -> worlds.State:
         if state.dynamics is not self._dynamics:
-            raise ValueError(f"the state is not one of this theory, `{self.name}`")
+            raise ValueError(f"the state is one of another theory, or of `{self.name}` as it was loaded before")
         return state.raw
 
     @cached_property
@@ -254,7 +254,9 @@ class Theory(Declared):
         start = None if state is None else self._raw(state)
         if goal is not None:
             if program is not None or every or strategy == "cheapest":
-                raise ValueError("a goal asks for one shortest plan without a program")
+                raise ValueError(
+                    "a goal asks for one shortest plan: leave out `program`, `every` and `strategy='cheapest'`"
+                )
             return GoalPlanning(self.elaborated, self._queries.formula(goal, "<goal>"), limits, conformant, start)
         call = read_procedure(self.elaborated, program or "control")
         ready = executable(self.elaborated, call.action, call.args, conformant)

@@ -16,6 +16,7 @@ from golc.nqc.toolchain import Target
 from golc.nqc.userfiles import user_file, user_files
 from golc.nqc.wire import CONTROLS, DEFAULTS, Wire
 from golc.nqc.words import LONGEST_NAME, complaint
+from golc.theory.forms import behaviour_text, setting_text
 from golc.theory.reading import fluents_read
 from golc.theory.suggest import did_you_mean
 from golc.theory.terms import Choice
@@ -87,7 +88,8 @@ def _report_overlap(one: _Messages, two: _Messages, findings: Findings) -> None:
         f"the {one} of `{one.device.name}` overlap with the {two} of `{two.device.name}`",
         _place(one.device),
         labels=(Label(_place(two.device), f"`{two.device.name}`"),),
-        help=f"each brick in sight needs messages of its own: write `set range 1` for `{one.device.name}`",
+        help="each brick in sight needs messages of its own: "
+        f"write `{setting_text('range', 1, one.device.span)}` for `{one.device.name}`",
     )
 
 
@@ -127,7 +129,9 @@ def _fewer_messages(theory: BasicActionTheory, actions: ActionMap) -> str | None
     alone = sum(device.kind == actions.device.kind for device in theory.devices) == 1
     base = actions.wire.control_base + CONTROLS
     if alone and base + 2 * wanted <= 256 and actions.wire == Wire():
-        return f"`set action_base {base}` and `set action_digits {wanted}` make it one message"
+        place = actions.device.span
+        both = f"`{setting_text('action_base', base, place)}` and `{setting_text('action_digits', wanted, place)}`"
+        return f"{both} make it one message"
     return None
 
 
@@ -150,11 +154,12 @@ def _check_ends(theory: BasicActionTheory, actions: ActionMap, findings: Finding
             help_ = "let one of what the brick reports ask for it or change it"
         else:
             continue
+        call = entry.span.either("by call", 'call="…"')
         findings.warning(
             Code.NO_END,
             f"`{entry.action}` starts a task, but {problem}",
             entry.behaviour.span,
-            help=f"{help_}, or use `by call` to wait for the end",
+            help=f"{help_}, or use `{call}` to wait for the end",
         )
 
 
@@ -191,7 +196,9 @@ def _check_behaviour_names(actions: ActionMap, findings: Findings) -> None:
                 Code.NQC_NAME,
                 f"`{name}` {reason}",
                 entry.behaviour.span,
-                help=f"name the behaviour otherwise: `by call do_{name}`" if name.isidentifier() else None,
+                help=f"name the behaviour otherwise: `{behaviour_text('call', f'do_{name}', entry.span)}`"
+                if name.isidentifier()
+                else None,
             )
         other = first.setdefault(name, entry)
         if type(other.behaviour) is not type(entry.behaviour) or len(other.args) != len(entry.args):

@@ -12,6 +12,7 @@ from golc.nqc.actionmap import ActionMap, Entry
 from golc.nqc.numbering import implied, number_device
 from golc.nqc.wire import LAST_RANGE
 from golc.theory.fitting import size
+from golc.theory.forms import name_text
 from golc.theory.suggest import did_you_mean
 from golc.theory.theory import Action, BasicActionTheory, Binding, Device, Fixed, Parameter
 
@@ -123,7 +124,11 @@ def _check_covered(action: Action, bindings: list[Binding | Entry], findings: Fi
             Code.NO_DEVICE,
             f"no device does `{action.name}`",
             action.span,
-            help=f"bind it in a device's block; `device self:` with the line `{action.name}` is for mere bookkeeping",
+            help=action.span.either(
+                f"bind it in a device's block; `device self:` with the line `{action.name}` is for mere bookkeeping",
+                f"write `bind({name_text(action.name, action.span)})` under a device; "
+                'one under `@theory.device("self")` is for mere bookkeeping',
+            ),
         )
         return
     wanted_count = _instances(action.parameters)
@@ -181,7 +186,9 @@ def _reporting_help(theory: BasicActionTheory, action: Action) -> str:
     """How an exogenous action that nobody reports gets a source: only bricks and people report anything."""
     bricks = [device for device in theory.devices if device.kind == RCX]
     if any(not {RCX, device.name}.isdisjoint(action.sources) for device in bricks):
-        return f"write a line `{action.name}` in the brick's block"
+        bound = f"write `bind({name_text(action.name, action.span)})` under the brick"
+        return action.span.either(f"write a line `{action.name}` in the brick's block", bound)
     if RCX in action.sources:
         return "declare the device"
-    return f"only bricks and operators report: write `from {RCX}` or `from {OPERATOR}`"
+    one, other = [action.span.either(f"from {kind}", f'sources=["{kind}"]') for kind in (RCX, OPERATOR)]
+    return f"only bricks and operators report: write `{one}` or `{other}`"

@@ -22,6 +22,7 @@ def check_effects(obligations: Obligations) -> None:
             continue
         for number in range(len(action.effects)):
             _check_effect(action, number, obligations)
+            _check_condition(action, action.effects[number], obligations)
         _check_conflicts(action, obligations)
         for name in obligations.theory.invariants:
             _check_invariant(action, name, obligations)
@@ -62,6 +63,20 @@ def _check_effect(action: Action, number: int, obligations: Obligations) -> None
     witness = obligations.witness(Question(variables, (*possible(action), change), fails=True), what, effect.span)
     if witness is not None:
         _report(action, witness, obligations)
+
+
+def _check_condition(action: Action, effect: Effect, obligations: Obligations) -> None:
+    """The condition of an effect can hold where the action is possible. What reads no fluent is a matter of constants,
+    which may well be meant."""
+    condition = effect.condition
+    if condition is None or not fluents_read(obligations.theory, [condition]):
+        return
+    variables = (*action.parameters, *_parameters(effect.binders))
+    steps = (*possible(action), *_applies(effect, tuple(range(len(variables)))))
+    what = f"whether this effect of `{action.name}` ever takes place"
+    if obligations.is_impossible(Question(variables, steps), what, condition.span):
+        message = f"this effect of `{action.name}` never takes place: its condition is false {obligations.everywhere}"
+        obligations.warning(Code.CONSTANT, message, condition.span, "never true")
 
 
 def _report(action: Action, witness: Witness, obligations: Obligations) -> None:

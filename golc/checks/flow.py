@@ -94,10 +94,11 @@ class Flow:
             case st.Perform():
                 return self._perform(statement, place)
             case st.Test(condition=condition):
-                self._constant(condition, place, "this test", only=False)
+                if self._constant(condition, place, "this test", (False,)) is False:
+                    return replace(place, known=())
                 return self._later(place.knowing(place.asked(condition)))
-            case st.WaitUntil(condition=condition):
-                return self._later(place, self._exogenous | place.others).knowing(place.asked(condition))
+            case st.WaitUntil():
+                return self._wait_until(statement, place)
             case st.Wait() | st.WaitTime() | st.Say():
                 return self._later(place)
             case st.If():
@@ -110,12 +111,12 @@ class Flow:
                 return self._concurrent(branches, place)
             case st.Interrupts():
                 return self._interrupts(statement, place)
-            case st.Pick(binders=binders, where=where, body=body):
-                self._walk(body, _where(place.inside(binders), where))
+            case st.Pick(body=body):
+                self._some(statement, place)
                 return self._after_all(body, place)
-            case st.For(binders=binders, where=where, body=body):
+            case st.For(body=body):
                 place = self._after_all(body, place)
-                self._walk(body, _where(place.inside(binders), where))
+                self._some(statement, place)
                 return place
             case st.Let(variable=variable, value=value, body=body):
                 inner = place.inside((Binder(variable),))
@@ -123,8 +124,9 @@ class Flow:
                 self._walk(body, inner.knowing(inner.asked(equal)))
                 return self._after_all(body, place)
             case st.Guard(condition=condition, body=body):
-                held = place.asked(condition)
-                self._walk(body, replace(place, guards=(*place.guards, held)).knowing(held))
+                if self._constant(condition, place, "this condition", (False,)) is not False:
+                    held = place.asked(condition)
+                    self._walk(body, replace(place, guards=(*place.guards, held)).knowing(held))
                 return self._after_all(body, place)
             case st.TogetherStar(body=body):
                 others = place.others | self._performed.by(body)
@@ -165,14 +167,15 @@ class Flow:
 
     def _if(self, statement: st.If, place: Place) -> Place:
         holds, fails = place.asked(statement.condition), place.asked(statement.condition, false=True)
-        self._constant(statement.condition, place, "this condition")
-        then = self._walk(statement.then, place.knowing(holds))
-        return self._common(place, [then, self._walk(statement.otherwise, place.knowing(fails))])
+        always = self._constant(statement.condition, place, "this condition")
+        ends = [] if always is False else [self._walk(statement.then, place.knowing(holds))]
+        return self._common(place, ends if always else [*ends, self._walk(statement.otherwise, place.knowing(fails))])
 
     def _while(self, statement: st.While, place: Place) -> Place:
         condition = statement.condition
         place = self._after_all(statement.body, place)
-        self._constant(condition, place, "this condition", true=False)
+        if self._constant(condition, place, "this condition", (False,)) is False:
+            return place
         self._walk(statement.body, place.knowing(place.asked(condition)))
         reads = fluents_read(self._theory, [condition])
         changing = self._performed.by(statement.body) | place.others
@@ -180,6 +183,21 @@ class Flow:
             message = "nothing in this loop changes its condition, so that it never ends once it has begun"
             self._obligations.warning(Code.ENDLESS_LOOP, message, condition.span, "stays as it is")
         return place.knowing(place.asked(condition, false=True))
+
+    def _wait_until(self, statement: st.WaitUntil, place: Place) -> Place:
+        """What is known once a condition holds, which may be when anything has happened meanwhile."""
+        later = self._later(place, self._exogenous | place.others)
+        if self._constant(statement.condition, later, "this condition", (False,)) is False:
+            return replace(later, known=())
+        return later.knowing(place.asked(statement.condition))
+
+    def _some(self, statement: st.Pick | st.For, place: Place) -> None:
+        """The body of a statement that binds variables."""
+        inner, where = place.inside(statement.binders), statement.where
+        if where is None:
+            self._walk(statement.body, inner)
+        elif self._constant(where, inner, "this condition", (False,)) is not False:
+            self._walk(statement.body, inner.knowing(inner.asked(where)))
 
     def _concurrent(self, branches: Sequence[Statement], place: Place) -> Place:
         for branch, rest in zip(branches, self._performed.by_others(branches), strict=True):
@@ -191,12 +209,13 @@ class Flow:
         rests = self._performed.by_others([handler.body for handler in statement.handlers])
         for handler, rest in zip(statement.handlers, rests, strict=True):
             inner = place.inside(handler.binders)
-            self._fires(handler, inner)
-            among = replace(inner, others=place.others | rest)
-            self._walk(handler.body, among.knowing(inner.asked(handler.condition)))
+            if self._fires(handler, inner):
+                among = replace(inner, others=place.others | rest)
+                self._walk(handler.body, among.knowing(inner.asked(handler.condition)))
         return place
 
-    def _fires(self, handler: st.Interrupt, place: Place) -> None:
+    def _fires(self, handler: st.Interrupt, place: Place) -> bool:
+        """Whether an interrupt may fire; otherwise that is reported."""
         condition = handler.condition
         fires = place.asked(condition)
         known = self._connected.known(place.known, (fires,))
@@ -204,20 +223,24 @@ class Flow:
         if not isinstance(condition, Literal) and self._never(place, (*known, fires), what, condition.span):
             message = f"this interrupt can never fire: its condition is false {self._obligations.everywhere}"
             self._obligations.warning(Code.NEVER_FIRES, message, condition.span, "never true")
+            return False
+        return True
 
-    def _constant(self, condition: Term, place: Place, what: str, only: bool | None = None, true: bool = True) -> None:
-        """Report a condition that is always true, or always false; with ``only`` or without ``true`` just one of them.
-        What reads no fluent is a matter of constants, which may well be meant."""
+    def _constant(
+        self, condition: Term, place: Place, what: str, only: tuple[bool, ...] = (False, True)
+    ) -> bool | None:
+        """Report a condition that is always false, or always true, of which only some are asked, and which of them it
+        is. What reads no fluent is a matter of constants, which may well be meant."""
         if not fluents_read(self._theory, [condition]):
-            return
-        question = f"whether {what} is always false"
+            return None
         known = self._connected.known((*place.guards, *place.known), (place.asked(condition),))
-        if self._never(place, (*known, place.asked(condition)), question, condition.span):
-            self._obligations.warning(Code.CONSTANT, f"{what} is always false here", condition.span, "never true")
-        elif only is not False and true:
-            question = f"whether {what} is always true"
-            if self._never(place, (*known, place.asked(condition, false=True)), question, condition.span):
-                self._obligations.warning(Code.CONSTANT, f"{what} is always true here", condition.span, "never false")
+        for value, always, never in ((False, "always false", "never true"), (True, "always true", "never false")):
+            asked = (*known, place.asked(condition, false=value))
+            question = f"whether {what} is {always}"
+            if value in only and self._never(place, asked, question, condition.span):
+                self._obligations.warning(Code.CONSTANT, f"{what} is {always} here", condition.span, never)
+                return value
+        return None
 
     # ---- what is known
 
@@ -261,10 +284,6 @@ class Flow:
     def _common(self, place: Place, ends: Sequence[Place]) -> Place:
         shared = [known for known in ends[0].known if all(known in end.known for end in ends)]
         return replace(place, known=tuple(shared))
-
-
-def _where(place: Place, where: Term | None) -> Place:
-    return place if where is None else place.knowing(place.asked(where))
 
 
 def _held(known: Asked) -> str:

@@ -10,7 +10,7 @@ from golc.diagnostics import Code, Findings
 from golc.proofs.at_first import AtFirst
 from golc.theory.closed import Closed, NoValueError
 from golc.theory.evaluate import Env
-from golc.theory.fitting import describe
+from golc.theory.forms import describe
 from golc.theory.terms import Choice, Membership, Term, Variable, subterms
 from golc.theory.theory import BasicActionTheory, Fluent
 from golc.theory.types import BOOL, Value, show, show_call
@@ -78,7 +78,7 @@ def _check_instance(theory: BasicActionTheory, fluent: Fluent, args: Env, closed
         findings.error(Code.NO_CHOICE, message, fluent.initial.span, "at least one has to be possible")
     for value in values:
         if value not in fluent.type:
-            message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type)}"
+            message = f"the initial value {show(value)} of `{what}` is outside {describe(fluent.type, fluent.span)}"
             findings.error(Code.INITIAL_VALUE, message, fluent.initial.span, f"is {show(value)}")
             return False
     return bool(values)

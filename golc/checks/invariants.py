@@ -37,7 +37,8 @@ def _check_everywhere(
             elif not case[1]:
                 message = f"invariant `{invariant.name}` is false in a world that is possible at first"
                 notes = (f"for example where {beginning.describe(case[0])}",) if case[0] else ()
-                help_ = "if it is never so, say it: `initially …`"
+                written = invariant.span.either("initially …", "theory.initially(…)")
+                help_ = f"if it is never so, say it: `{written}`"
                 findings.error(
                     Code.INVARIANT_AT_FIRST, message, invariant.body.span, "not in every world", help_, notes=notes
                 )

@@ -8,6 +8,7 @@ from golc.syntax import tree
 from golc.syntax.walk import descendants
 from golc.theory.declare import declare
 from golc.theory.fitting import meet
+from golc.theory.forms import sign
 from golc.theory.scope import Entry, Kind, Names
 from golc.theory.theory import BasicActionTheory, Binding, Device, Fixed, Parameter
 
@@ -112,14 +113,21 @@ def _loose_quantifiers(file: tree.File, findings: Findings) -> None:
                 loose = body.right
                 bound = {binder.name.text for binder in node.binders}
                 if bound.isdisjoint(_mentioned(loose)) and not bound.isdisjoint(_mentioned(body.left)):
-                    findings.warning(
-                        Code.LOOSE_QUANTIFIER,
-                        f"`{node.kind}` takes in everything to its right, also what does not depend on its variable",
-                        loose.span,
-                        "belongs to the quantifier",
-                        labels=(Label(node.binders[0].span, "bound here, not used there"),),
-                        help=f"write `({node.kind} …) {body.op} …`, or put this first",
-                    )
+                    _report_loose(node, body, findings)
+
+
+def _report_loose(node: tree.Quantifier, body: tree.Binary, findings: Findings) -> None:
+    place, word = node.span, sign(node.kind, node.span)
+    message = f"`{node.kind}` takes in everything to its right, also what does not depend on its variable"
+    outside = f"{word}(…) {sign('or', place)} …" if body.op == "or" else f"{body.op}({word}(…), …)"
+    findings.warning(
+        Code.LOOSE_QUANTIFIER,
+        place.either(message, f"a part of this `{word}` does not depend on its variable"),
+        body.right.span,
+        "belongs to the quantifier",
+        labels=(Label(node.binders[0].span, "bound here, not used there"),),
+        help=place.either(f"write `({node.kind} …) {body.op} …`, or put this first", f"write `{outside}`"),
+    )
 
 
 def _mentioned(node: tree.Node) -> set[str]:

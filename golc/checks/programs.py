@@ -35,7 +35,9 @@ def _check_interrupts(theory: BasicActionTheory, handlers: tuple[Interrupt, ...]
 
 
 def _hides_all(handler: Interrupt, below: Interrupt, certain: bool, findings: Findings) -> None:
-    written = f"`on {handler.condition.span.text}`" if not handler.binders else "an interrupt that is always true"
+    condition = handler.condition.span
+    on = condition.either(f"on {condition.text}", f"on({condition.text})")
+    written = f"`{on}`" if not handler.binders else "an interrupt that is always true"
     reached = "never" if certain else "only when its block cannot begin"
     findings.warning(
         Code.UNREACHABLE,

@@ -13,7 +13,7 @@ from typing import TextIO
 
 import click
 
-from golc.diagnostics import DeviceError, Diagnostic, GolcError, LimitError, ProgramError, UserError
+from golc.diagnostics import DeviceError, LimitError
 from golc.theory.recursion import EVALUATION
 
 COMMANDS = {
@@ -63,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> None:
 
 
 def invoke(arguments: Sequence[str] | None = None) -> int:
-    """Run a command and return its exit code; every error that golc raises on purpose is said in one place."""
+    """Run a command and return its exit code; what goes wrong outside of the input is said here."""
     sys.setrecursionlimit(EVALUATION)
     _open_streams()
     try:
@@ -89,9 +89,6 @@ def _code(error: BaseException) -> int:
         case click.Abort() | KeyboardInterrupt():
             _tell("interrupted")
             return 130
-        case GolcError():
-            _say(error)
-            return error.exit_code
         case BrokenPipeError():
             return 141
         case SystemExit(code=1) if "_GOLC_COMPLETE" not in os.environ:  # so click ends where nobody reads
@@ -99,7 +96,8 @@ def _code(error: BaseException) -> int:
         case OSError(__context__=KeyboardInterrupt()):  # of a terminal that was closed, which click could not tell so
             return 130
         case OSError(errno=number, filename=None) if number in UNWRITABLE:
-            return _code(DeviceError(f"cannot write the output: {error.strerror}"))
+            _tell(f"error: cannot write the output: {error.strerror}")
+            return DeviceError.exit_code
         case MemoryError():
             _tell("error: gave up: there is no memory left")
             return LimitError.exit_code
@@ -135,26 +133,6 @@ def _let_go(stream: TextIO) -> None:
         null = os.open(os.devnull, os.O_WRONLY)
         os.dup2(null, stream.fileno())
         os.close(null)
-
-
-def _say(error: GolcError) -> None:
-    match error:
-        case UserError(diagnostics=diagnostics):
-            _render(*diagnostics)
-        case ProgramError(diagnostic=diagnostic):
-            _render(diagnostic)
-        case _:
-            _tell(f"error: {error}")
-            if isinstance(error, DeviceError) and error.help:
-                _tell(f"  = help: {error.help}")
-
-
-def _render(*diagnostics: Diagnostic) -> None:
-    from golc.cli.common import Console
-    from golc.rendering import render
-
-    for diagnostic in diagnostics:
-        _tell(render(diagnostic, color=Console().colored(sys.stderr)))
 
 
 def _tell(text: str) -> None:

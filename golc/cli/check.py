@@ -73,9 +73,18 @@ def command(
         raise click.UsageError("--diff shows a patch, and has no other --format.")
     if watching and form not in LINES:
         raise click.UsageError(f"--watch goes on writing, and --format {form} is one whole.")
-    selection = Selection(select, ignore)
     checking = Checking(
-        files, form, strict, not no_proofs, reachable, trust, selection, fixing, diff, constants, console
+        files,
+        constants,
+        console,
+        Selection(select, ignore),
+        form,
+        strict=strict,
+        proofs=not no_proofs,
+        reachable=reachable,
+        trust=trust,
+        fixing=fixing,
+        diff=diff,
     )
     if not watching:
         return checking.run()

@@ -34,19 +34,19 @@ class Seen(Looked):
 
 @dataclass(frozen=True)
 class Checking:
-    """What is to be done with which files."""
+    """What is to be done with which files; the fields are the options of ``golc check``."""
 
     files: tuple[str, ...]
+    constants: Mapping[str, str]
+    console: Console
+    selection: Selection
     form: str
     strict: bool
     proofs: bool
     reachable: bool
     trust: bool
-    selection: Selection
     fixing: bool
     diff: bool
-    constants: Mapping[str, str]
-    console: Console
 
     def run(self) -> int:
         """Check all files; the exit code."""

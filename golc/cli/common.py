@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import contextlib
+import functools
 import math
 import os
 import sys
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
-from typing import Any, TextIO, TypeVar
+from typing import Any, TextIO, TypeVar, cast
 
 import click
+
+from golc.diagnostics import DeviceError, Diagnostic, GolcError, ProgramError, UserError
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -42,6 +45,28 @@ class Console:
         with contextlib.suppress(OSError):
             print(text, file=sys.stderr, flush=True)
 
+    def findings(self, findings: Iterable[Diagnostic], gap: bool = True) -> None:
+        """Findings in full, each with an empty line behind it unless there is to be no ``gap``; never silenced."""
+        for finding in findings:
+            self.err(self._rendered(finding) + "\n" * gap)
+
+    def _rendered(self, finding: Diagnostic) -> str:
+        from golc.rendering import render
+
+        return render(finding, self.colored(sys.stderr))
+
+    def error(self, error: GolcError) -> None:
+        """What has ended the command."""
+        match error:
+            case UserError(diagnostics=diagnostics):
+                self.err("\n\n".join(map(self._rendered, diagnostics)))
+            case ProgramError(diagnostic=diagnostic):
+                self.err(self._rendered(diagnostic))
+            case _:
+                self.err(f"error: {error}")
+                if isinstance(error, DeviceError) and error.help:
+                    self.err(f"  = help: {error.help}")
+
     def note(self, text: str) -> None:
         """What is good to know; silent under ``-q``."""
         if self.verbosity >= 0:
@@ -68,25 +93,53 @@ def _definitions(context: click.Context, parameter: click.Parameter, values: tup
     return constants
 
 
+def grouped(name: str, build: Callable[..., object], *options: Callable[[F], F]) -> Callable[[F], F]:
+    """Options that belong together: the command gets what ``build`` makes of them, as ``name``."""
+
+    def decorate(command: F) -> F:
+        @functools.wraps(command)
+        def wrapper(**values: Any) -> Any:
+            group = {option: values.pop(option) for option in names}
+            return command(**values, **{name: build(**group)})
+
+        parameters: list[click.Parameter] = wrapper.__dict__.setdefault("__click_params__", [])
+        others = len(parameters)
+        for option in reversed(options):
+            option(wrapper)
+        names = [parameter.name for parameter in parameters[others:]]
+        return cast(F, wrapper)
+
+    return decorate
+
+
 def console_options(command: F) -> F:
-    """``--color``, ``-q`` and ``-v``; the command gets a ``console``."""
+    """``--color``, ``-q`` and ``-v``: the command gets a ``console``.
 
-    def build(color: str, quiet: bool, verbose: int) -> Console:
-        return Console(color, -1 if quiet else verbose)
+    That says what Python code is executed, and what error has ended the command.
+    """
 
-    def wrapper(*args: Any, color: str, quiet: bool, verbose: int, **kwargs: Any) -> Any:
-        console = build(color, quiet, verbose)
+    @functools.wraps(command)
+    def wrapper(**values: Any) -> Any:
+        console: Console = values["console"]
         with _executing_said(console):
-            return command(*args, console=console, **kwargs)
+            try:
+                return command(**values)
+            except GolcError as error:
+                console.error(error)
+                return error.exit_code
 
-    wrapper.__name__ = command.__name__
-    wrapper.__doc__ = command.__doc__
-    wrapper.__click_params__ = getattr(command, "__click_params__", [])  # type: ignore[attr-defined]
-    wrapped = click.option(
-        "--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="When to use color."
-    )(wrapper)
-    wrapped = click.option("-v", "--verbose", count=True, help="Say more.")(wrapped)
-    return click.option("-q", "--quiet", is_flag=True, help="Say only what went wrong.")(wrapped)  # type: ignore[return-value]
+    options = (
+        click.option("-q", "--quiet", is_flag=True, help="Say only what went wrong."),
+        click.option("-v", "--verbose", count=True, help="Say more."),
+        click.option(
+            "--color", type=click.Choice(["auto", "always", "never"]), default="auto", help="When to use color."
+        ),
+    )
+    return cast(F, grouped("console", _console, *options)(wrapper))
+
+
+def _console(color: str, quiet: bool, verbose: int) -> Console:
+    return Console(color, -1 if quiet else verbose)
 
 
 @contextlib.contextmanager
@@ -172,3 +225,16 @@ def completed(path: Path) -> Iterator[TextIO]:
             partial.replace(path)
         finally:
             partial.unlink(missing_ok=True)
+
+
+def written(console: Console, name: str, text: str) -> bool:
+    """Write the text of a file, all of it or nothing, where it really is; whether that has gone well, which is said."""
+    try:
+        with completed(Path(os.path.realpath(name))) as stream:
+            stream.write(text)
+    except OSError as error:
+        console.err(f"error: `{name}` cannot be written: {error.strerror or error}")
+        return False
+    if console.verbosity >= 0:
+        console.out(f"wrote {name}")
+    return True

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, completed, console_options
+from golc.cli.common import Console, console_options, written
 
 if TYPE_CHECKING:
     from golc.diagnostics import Findings, Source
@@ -31,7 +31,6 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
     golc convert delivery.py delivery.gl
     """
     from golc.diagnostics import Findings, UserError
-    from golc.rendering import render
 
     to_golc = Path(file).suffix == ".py"
     if Path(target).suffix == (".py" if to_golc else ".gl"):
@@ -44,8 +43,7 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
         source, text = (_as_golc if to_golc else _as_python)(file, findings)
     except UserError as error:
         findings.diagnostics += error.diagnostics
-    for finding in findings.diagnostics:
-        console.err(render(finding, console.colored(sys.stderr)) + "\n")
+    console.findings(findings.diagnostics)
     if findings.has_errors or not _write(console, text, target):
         return 1
     if (_python_comments if to_golc else _golc_comments)(source.text):
@@ -97,16 +95,7 @@ def _write(console: Console, text: str, target: str) -> bool:
     if target == "-":
         sys.stdout.write(text)
         return True
-    path = Path(os.path.realpath(target))
-    try:
-        with completed(path) as stream:
-            stream.write(text)
-    except OSError as error:
-        console.err(f"error: `{target}` cannot be written: {error.strerror or error}")
-        return False
-    if console.verbosity >= 0:
-        console.out(f"wrote {target}")
-    return True
+    return written(console, target, text)
 
 
 def _golc_comments(text: str) -> bool:

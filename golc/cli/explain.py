@@ -16,24 +16,30 @@ from golc.cli.common import Console, console_options, constants_option
 @click.option(
     "--format", "form", type=click.Choice(["text", "latex"]), default="text", help="Unicode, or LaTeX with amsmath."
 )
+@click.option("--python", is_flag=True, help="Show the examples of a CODE as theories in Python.")
 @constants_option
 @console_options
-def command(console: Console, about: tuple[str, ...], form: str, constants: Mapping[str, str]) -> int:
+def command(console: Console, about: tuple[str, ...], form: str, python: bool, constants: Mapping[str, str]) -> int:
     """Explain the CODE of a finding, or show what NAME stands for in the domain FILE, in the notation of the papers.
 
-    A code has a page that says what it means, with a wrong and a right example.
+    A code has a page that says what it means, with a wrong and a right example, with --python as theories in Python.
 
     Of a fluent its successor state axiom, of an action its precondition and its effects, of a procedure the program; of
     everything else its definition. Where several things have the name, all of them.
 
     \b
     golc explain GL012
+    golc explain GL012 --python
     golc explain examples/elevator/elevator.gl lit
     golc explain examples/delivery/delivery.gl push_go_button --format latex
     """
     if len(about) == 1:
-        console.out(_page(about[0], form, constants))
+        if form != "text" or constants:
+            raise click.UsageError("--format and -D are for a FILE and a NAME, not for a CODE")
+        console.out(_page(about[0], python, console))
         return 0
+    if python:
+        raise click.UsageError("--python is for a CODE, not for a FILE and a NAME")
     if len(about) != 2:
         raise click.UsageError("a CODE, or a FILE and a NAME are needed: golc explain elevator.gl lit")
 
@@ -44,8 +50,9 @@ def command(console: Console, about: tuple[str, ...], form: str, constants: Mapp
     return 0
 
 
-def _page(word: str, form: str, constants: Mapping[str, str]) -> str:
+def _page(word: str, python: bool, console: Console) -> str:
     from golc.codes.pages import page
+    from golc.codes.python import in_python
     from golc.codes.text import as_text
     from golc.diagnostics import Code
     from golc.theory.suggest import did_you_mean
@@ -57,6 +64,7 @@ def _page(word: str, form: str, constants: Mapping[str, str]) -> str:
         raise click.UsageError(f"there is no code `{word}`" + (f": {question}" if question else ""))
     if code is None:
         raise click.UsageError("a CODE, or a FILE and a NAME are needed: golc explain elevator.gl lit")
-    if form != "text" or constants:
-        raise click.UsageError("--format and -D are for a FILE and a NAME, not for a CODE")
-    return as_text(page(code), shutil.get_terminal_size().columns)
+    found = in_python(page(code)) if python else page(code)
+    if found is None:
+        console.note(f"{code.code} is about the text of a `.gl` file: its examples have no form in Python")
+    return as_text(found or page(code), shutil.get_terminal_size().columns)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, completed, console_options, patch
+from golc.cli.common import Console, console_options, patch, written
 from golc.diagnostics import counted
 
 if TYPE_CHECKING:
@@ -71,21 +70,13 @@ class _Result:
         if self.name == STDIN:
             sys.stdout.write(self.text)
         elif self.changed:
-            try:
-                with completed(Path(os.path.realpath(self.name))) as stream:
-                    stream.write(self.text)
-            except OSError as error:
-                console.err(f"error: `{self.name}` cannot be written: {error.strerror or error}")
-                return False
-            if console.verbosity >= 0:
-                console.out(f"wrote {self.name}")
+            return written(console, self.name, self.text)
         return True
 
 
 def _laid_out(console: Console, file: str) -> Iterator[_Result]:
     """What is to become of a file: nothing, but its findings are told, if it cannot be read or does not parse."""
     from golc.diagnostics import Findings, UserError
-    from golc.rendering import render
     from golc.syntax.format import formatted
     from golc.syntax.text import read_source, read_stream
 
@@ -104,8 +95,7 @@ def _laid_out(console: Console, file: str) -> Iterator[_Result]:
             yield _Result(source, text, not same)
     except UserError as error:
         findings.diagnostics += error.diagnostics
-    for finding in findings.diagnostics:
-        console.err(render(finding, console.colored(sys.stderr)) + "\n")
+    console.findings(findings.diagnostics)
 
 
 def _summary(files: int, changed: int, left: int, would: bool) -> str:

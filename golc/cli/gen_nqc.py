@@ -27,7 +27,13 @@ if TYPE_CHECKING:
 @click.option(
     "--target", "option", type=click.Choice(["rcx", "rcx2"]), default="rcx2", help="Firmware 1.0, or 2.0 (default)."
 )
-@click.option("--link", type=click.Choice(["classic"]), default="classic", help="The protocol: that of Legolog 2000.")
+@click.option(
+    "--link",
+    type=click.Choice(["classic"]),
+    default="classic",
+    expose_value=False,  # there is no other protocol yet
+    help="The protocol: that of Legolog 2000.",
+)
 @click.option("--compile", "compile_", is_flag=True, help="Compile it with nqc and say how much of the brick it takes.")
 @click.option("--download", is_flag=True, help="Compile it and send it to the brick.")
 @click.option("--port", metavar="P", help="With --download: the tower, a tty or usb:/dev/usb/legousbtower0.")
@@ -43,7 +49,6 @@ def command(
     output: str | None,
     name: str | None,
     option: str,
-    link: str,
     compile_: bool,
     download: bool,
     port: str | None,
@@ -75,21 +80,12 @@ def command(
         raise click.BadParameter(str(error), param_hint="--device") from None
     for program in programs:
         _say_written(console, program.generated)
-        _warn(console, program)
+        console.findings(program.warnings)
         if compile_ or download:
             _say_compiled(console, program)
         if download and port is not None:
             _download(console, program, port, slot)
     return 0
-
-
-def _warn(console: Console, program: BrickProgram) -> None:
-    import sys
-
-    from golc.rendering import render
-
-    for diagnostic in program.warnings:
-        console.err(render(diagnostic, console.colored(sys.stderr)) + "\n")
 
 
 def _say_written(console: Console, generated: Generated) -> None:

@@ -7,19 +7,31 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal, TypedDict, Unpack
 
 import click
 
 from golc.cli.common import Console, Quantity, completed, console_options, constants_option
+from golc.diagnostics import counted
 
 if TYPE_CHECKING:
+    from golc.planning.goals import GoalPlanning
+    from golc.planning.planner import Planning
     from golc.planning.plans import Outcome
     from golc.theory.types import Number
 
 DONE, NO_PLAN, GAVE_UP = 0, 1, 3
 EVERY = 10**12
 """What `--all` without a number stands for."""
+
+
+class Search(TypedDict):
+    """The options that a search takes as they are."""
+
+    steps: int | None
+    seconds: float | None
+    nodes: int | None
+    conformant: bool
 
 
 @click.command(name="plan", short_help="Plan offline with a program.")
@@ -46,7 +58,7 @@ EVERY = 10**12
 @click.option("--stats", is_flag=True, help="Say what the search took.")
 @click.option("--conformant", is_flag=True, help="Plans that work without knowing what is sensed.")
 @click.option(
-    "--format", "format_", type=click.Choice(["text", "json", "dot"]), default="text", help="How to write plans."
+    "--format", "form", type=click.Choice(["text", "json", "dot"]), default="text", help="How to write plans."
 )
 @click.option("-o", "--output", type=click.Path(dir_okay=False), metavar="FILE", help="Write the plans to a file.")
 @constants_option
@@ -60,14 +72,11 @@ def command(
     shortest: bool,
     cheapest: bool,
     most: int | None,
-    steps: int | None,
-    seconds: float | None,
-    nodes: int | None,
-    conformant: bool,
     stats: bool,
-    format_: str,
+    form: str,
     output: str | None,
     constants: Mapping[str, str],
+    **search: Unpack[Search],
 ) -> int:
     """Execute a program of FILE offline and print the actions of a plan, one a line.
 
@@ -80,39 +89,38 @@ def command(
     golc plan examples/elevator/elevator.gl --goal 'at = 5 and not lit(5)'
     """
     from golc.api.loading import load
-    from golc.cli.plan_writing import FORMATS
 
     _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
     if goal is not None and (procedure is not None or cheapest or most is not None):
         raise click.UsageError("--goal asks for one shortest plan without a program: no PROC, --all or --cheapest")
+    theory = load(file, constants)
+    strategy: Literal["first", "shortest", "cheapest"] = "shortest" if shortest else "cheapest" if cheapest else "first"
     try:
-        planning = load(file, constants).planning(
-            procedure,
-            goal=goal,
-            strategy="shortest" if shortest else "cheapest" if cheapest else "first",
-            every=most is not None,
-            conformant=conformant,
-            steps=steps,
-            nodes=nodes,
-            seconds=seconds,
-        )
+        planning = theory.planning(procedure, goal=goal, strategy=strategy, every=most is not None, **search)
     except ValueError:
         raise click.UsageError(
             "--all lists sequences of actions, but plans of this domain depend on what is sensed; "
             "those that do not are listed with --conformant"
         ) from None
+    cost = _write(planning, form, most, output)
+    _report(console, goal or procedure or "control", planning.outcome, stats, cost)
+    if planning.outcome.gave_up and (most is None or planning.outcome.plans < most):
+        return GAVE_UP
+    return DONE if planning.outcome.plans else NO_PLAN
+
+
+def _write(planning: Planning | GoalPlanning, form: str, most: int | None, output: str | None) -> Number | None:
+    """Write the plans as they are found, at most so many of them; what the last one costs."""
+    from golc.cli.plan_writing import FORMATS
+
     cost = None
     with _writer(output) as write:
-        listing = FORMATS[format_](write, most is not None)
+        listing = FORMATS[form](write, most is not None)
         for plan in islice(planning, most):
             listing.add(plan)
             cost = plan.cost
         listing.close(planning.outcome)
-    outcome = planning.outcome
-    _report(console, goal or procedure or "control", outcome, stats, cost)
-    if outcome.plans and most is not None and outcome.plans >= most:
-        return DONE
-    return GAVE_UP if outcome.gave_up else DONE if outcome.plans else NO_PLAN
+    return cost
 
 
 def _only_one(given: Mapping[str, bool]) -> None:
@@ -138,23 +146,21 @@ def _writer(output: str | None) -> Iterator[Callable[[str], None]]:
 
 
 def _report(console: Console, program: str, outcome: Outcome, stats: bool, cost: Number | None) -> None:
+    """Say on stderr what became of the search, and with ``stats`` what it took."""
+    from golc.theory.types import show
+
+    found = counted(outcome.plans, "plan")
     if not outcome.plans:
         for line in outcome.failure(program):
             console.err(line)
     elif outcome.gave_up:
         console.note(f"not all plans: {outcome.gave_up}")
     elif not stats:
-        console.note(f"{_plans(outcome.plans)}")
+        console.note(found)
     if stats:
         rate = outcome.expanded / outcome.seconds if outcome.seconds else 0
-        from golc.theory.types import show
-
-        found = _plans(outcome.plans) + ("" if cost is None else f" of cost {show(cost)}")
+        costing = "" if cost is None else f" of cost {show(cost)}"
         console.err(
-            f"{found}, {outcome.expanded} pairs of program and state expanded in "
+            f"{found}{costing}, {outcome.expanded} pairs of program and state expanded in "
             f"{outcome.seconds:.3f} s ({rate:,.0f} a second)"
         )
-
-
-def _plans(count: int) -> str:
-    return f"{count} plan{'' if count == 1 else 's'}"

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import count, pairwise
 from typing import Any, TypeAlias
 
+from golc.diagnostics import counted
 from golc.planning.plans import INDENT, Outcome, Plan, Step, answers, lines_of
 from golc.program.labels import Act
 from golc.program.paths import bottom_up
@@ -41,8 +42,7 @@ class Text(Listing):
     def add(self, plan: Plan) -> None:
         self._count += 1
         if self._numbered:
-            count = len(plan.actions)
-            self._write(f"# plan {self._count}: {count} action{'' if count == 1 else 's'}")
+            self._write(f"# plan {self._count}: {counted(len(plan.actions), 'action')}")
         for line in lines_of(plan):
             self._write(line)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import sys
 from collections.abc import Mapping
+from functools import partial
 from typing import TYPE_CHECKING, Unpack
 
 import click
@@ -12,7 +13,6 @@ import click
 from golc.cli.common import Console, Quantity, address, console_options, constants_option, speed_option
 
 if TYPE_CHECKING:
-    from golc.diagnostics import Diagnostic
     from golc.runtime.conversation import Voice
     from golc.runtime.settings import OnFailure, Options
 
@@ -115,18 +115,13 @@ def command(
 
 def _voice(console: Console) -> Voice:
     """What the run says goes to stdout, what is wrong to stderr."""
-    from golc.rendering import render
     from golc.runtime.conversation import Voice
     from golc.runtime.observers.trace import Style
 
     encoding = (sys.stdout.encoding or "").lower().replace("-", "")
     style = Style(console.colored(sys.stdout), unicode=encoding.startswith("utf"))
 
-    def complain(diagnostics: tuple[Diagnostic, ...]) -> None:
-        for diagnostic in diagnostics:
-            console.err(render(diagnostic, color=console.colored(sys.stderr)))
-
-    return Voice(_write, complain, style, console.verbosity, stdin=True)
+    return Voice(_write, partial(console.findings, gap=False), style, console.verbosity, stdin=True)
 
 
 def _write(line: str) -> None:

@@ -5,11 +5,10 @@ from __future__ import annotations
 import dataclasses
 import tempfile
 from collections.abc import Iterator, Mapping
-from enum import Enum
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import click
+from golc.cli.sim_options import ByteCode
 
 if TYPE_CHECKING:
     from golc.bytecode.image import Image
@@ -86,88 +85,45 @@ def _compile_domain(path: Path, target: Target, constants: Mapping[str, str]) ->
         return build(theory, first.device, target, Path(folder)).image
 
 
-def settings(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> dict[str, Any]:
-    """A callback for ``--brick NAME=VALUE``: the fields of the machine's options."""
-    from golc.runtime.rcxsim.machine.options import Options
-
-    fields = {field.name: field for field in dataclasses.fields(Options) if field.name != "seed"}
-    found: dict[str, Any] = {}
-    for value in values:
-        name, _, text = value.partition("=")
-        if name not in fields:
-            raise click.BadParameter(f"there is no {name!r}; there is {', '.join(fields)}")
-        try:
-            found[name] = _setting(text, fields[name].default)
-        except ValueError as error:
-            raise click.BadParameter(f"{value!r}: {error}") from None
-    try:
-        Options(**found)
-    except ValueError as error:
-        raise click.BadParameter(str(error)) from None
-    return found
-
-
-def _setting(text: str, default: object) -> object:
-    """A value of the kind that the default is of."""
-    match default:
-        case bool():
-            if text not in ("yes", "no"):
-                raise ValueError("it is yes or no")
-            return text == "yes"
-        case Enum():
-            kinds = {kind.value: kind for kind in type(default)}
-            if text not in kinds:
-                raise ValueError(f"it is one of {', '.join(kinds)}")
-            return kinds[text]
-        case tuple():
-            first, _, second = text.partition(",")
-            return _number(first), _number(second)
-        case _:
-            return _number(text)
-
-
-def _number(text: str) -> int:
-    if not (text.isascii() and text.isdecimal()) or len(text) > 9:
-        raise ValueError("it is a whole number from 0")
-    return int(text)
-
-
 class Simulation:
-    """A machine with the program of a file, or an empty one; raises UserError if there is anything wrong with it."""
+    """A machine with the program of a file, or an empty one; raises ``UserError`` if anything is wrong with it.
+
+    ``room`` is what is around it: without one its inputs and outputs are open. ``constants`` are those of a domain that
+    are replaced.
+    """
 
     def __init__(
         self,
-        path: Path | None,
-        target: str | None,
-        settings: Mapping[str, Any],
-        surroundings: Surroundings,
+        file: Path | None,
+        asked: ByteCode,
+        seed: int,
+        room: Surroundings | None,
         trace: Trace,
         constants: Mapping[str, str],
     ) -> None:
         from golc.nqc.toolchain import Target
         from golc.runtime.rcxsim.machine.options import FIRMWARES, Firmware, Options
+        from golc.runtime.rcxsim.surroundings import Bench
 
-        chosen = next((one for one in Target if one.option == target), Target.RCX2)
-        self._path = path
-        self._image = None if path is None else read_program(path, chosen, constants)
+        chosen = next((one for one in Target if one.option == asked.target), Target.RCX2)
+        self._file = file
+        self._image = None if file is None else read_program(file, chosen, constants)
         self._firmware = Firmware.V1 if chosen is Target.RCX else Firmware.V2
-        if self._image is not None and target is None:
+        if self._image is not None and asked.target is None:
             self._firmware = FIRMWARES[self._image.target]
-        self._options = Options(**settings)
-        self._surroundings = surroundings
+        self._options = Options(seed=seed, **asked.firmware)
+        self._surroundings = room or Bench()
         self._trace = trace
 
     def line(self, options: LineOptions) -> Line:
         """The line to the brick, whose program has been started."""
         return self._build(options)[0]
 
-    def shown(self, listing: bool, seconds: float | None, steps: int | None, options: LineOptions) -> list[str] | None:
-        """What is asked for that needs no port."""
-        if listing:
-            return self.listing()
-        if seconds is not None:
-            return self.run(seconds, options)
-        return None if steps is None else self.finish(steps, options)
+    def shown(self, asked: ByteCode, options: LineOptions) -> list[str]:
+        """What is asked for that needs no port, in lines."""
+        if asked.seconds is not None:
+            return self.run(asked.seconds, options)
+        return self.listing() if asked.steps is None else self.finish(asked.steps, options)
 
     def listing(self) -> list[str]:
         """The op codes of the program."""
@@ -209,8 +165,8 @@ class Simulation:
         try:
             return build(self._firmware, self._image, self._surroundings, self._options, options, self._trace)
         except DeviceError as error:
-            assert self._path is not None
-            raise refused(self._path, str(error)) from None
+            assert self._file is not None
+            raise refused(self._file, str(error)) from None
 
 
 def _advance(line: Line, brick: MachineBrick, now: float) -> None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from golc.cli.common import Console, console_options, constants_option
+from golc.diagnostics import UserError, counted
 
 if TYPE_CHECKING:
     from golc.diagnostics import Diagnostic
@@ -38,7 +39,7 @@ def command(console: Console, files: tuple[str, ...], junit: str | None, constan
     if junit is not None:
         _write(junit, cases)
     wrong = sum(case.problem is not None for case in cases)
-    console.note(f"{len(cases)} scenario{'s' * (len(cases) != 1)}: {f'{wrong} failed' if wrong else 'none failed'}")
+    console.note(f"{counted(len(cases), 'scenario')}: {wrong or 'none'} failed")
     return int(wrong > 0)
 
 
@@ -46,22 +47,20 @@ def _run(console: Console, file: str, constants: Mapping[str, str]) -> Iterator[
     import sys
 
     from golc.api.loading import load
-    from golc.diagnostics import UserError
     from golc.rendering import render
     from golc.scenarios.junit import Case
 
     try:
         theory = load(file, constants)
     except UserError as error:
-        for diagnostic in error.diagnostics:
-            console.err(render(diagnostic, console.colored(sys.stderr)))
+        console.findings(error.diagnostics)
         details = "\n".join(map(render, error.diagnostics))
         console.out(f"FAILED  {file}: the file has errors")
         yield Case(file, "load", error.diagnostics[0].message, details, error=True)
         return
     for played in theory.test():
         scenario = played.scenario
-        counts = f"{_count(played.actions, 'action')}, {_count(played.events, 'event')}"
+        counts = f"{counted(played.actions, 'action')}, {counted(played.events, 'event')}"
         if played.failure is None:
             console.out(f"ok      {file}: {scenario.name} ({counts})")
             yield Case(file, scenario.name)
@@ -90,7 +89,3 @@ def _write(path: str, cases: list[Case]) -> None:
         Path(path).write_text(report(cases), encoding="utf-8")
     except OSError as error:
         raise click.FileError(path, error.strerror or str(error)) from None
-
-
-def _count(number: int, what: str) -> str:
-    return f"{number} {what}{'s' * (number != 1)}"

@@ -16,6 +16,7 @@ from typing import TypeAlias
 
 from golc.cli.common import Console
 from golc.cli.reads import Status, reads, status
+from golc.diagnostics import counted
 from golc.runtime.signals import ENDING, ending_on_signals
 
 PAUSE = 0.2
@@ -46,7 +47,7 @@ def watch(run: Callable[[], int], files: Iterable[str], console: Console) -> int
                 return _run(run, write)
             os.close(write)
             known = _told(child, read) or _now(known)
-            console.note(f"watching {len(known)} file{'s' * (len(known) != 1)}; Ctrl-C ends it")
+            console.note(f"watching {counted(len(known), 'file')}; Ctrl-C ends it")
             _wait(known)
 
 

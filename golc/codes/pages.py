@@ -26,10 +26,11 @@ class Example:
 
 @dataclass(frozen=True)
 class Page:
-    """A page: ``text`` is all of it below its title, as Markdown."""
+    """A page: ``text`` is all of it below its title, as Markdown; ``example`` is the file of blocks without a name."""
 
     code: Code
     text: str
+    example: str = EXAMPLE
 
     @property
     def meaning(self) -> str:
@@ -39,24 +40,23 @@ class Page:
     @property
     def wrong(self) -> Example:
         """An example that has the finding."""
-        return _example(_SECTION.split(self.text)[2], Example({}, f"golc check {EXAMPLE}"))
+        return self._shown(2, Example({}, f"golc check {self.example}"))
 
     @property
     def right(self) -> Example:
         """One that has not; of what it does not show, the files and the command are those of the wrong one."""
-        return _example(_SECTION.split(self.text)[4], self.wrong)
+        return self._shown(4, self.wrong)
+
+    def _shown(self, section: int, default: Example) -> Example:
+        found, command = dict(default.files), default.command
+        for language, name, text in FENCE.findall(_SECTION.split(self.text)[section]):
+            if language == "console":
+                command = text.removeprefix("$ ").strip()
+            else:
+                found[name or self.example] = text
+        return Example(found, command)
 
 
 def page(code: Code) -> Page:
     """The page about a code."""
     return Page(code, files("golc.codes").joinpath(f"{code.code}.md").read_text(encoding="utf-8"))
-
-
-def _example(section: str, default: Example) -> Example:
-    found, command = dict(default.files), default.command
-    for language, name, text in FENCE.findall(section):
-        if language == "console":
-            command = text.removeprefix("$ ").strip()
-        else:
-            found[name or EXAMPLE] = text
-    return Example(found, command)

@@ -153,7 +153,8 @@ def length() -> Refused:
 
 def elements() -> Refused:
     """Python goes through a term."""
-    return meaningless("Python cannot go through a term, whose value depends on the situation", caller())
+    help_ = "a loop or comprehension in a translated function goes through it: `for x in …`"
+    return meaningless("Python cannot go through a term, whose value depends on the situation", caller(), help_)
 
 
 def place_in_a_table() -> Refused:

@@ -12,6 +12,7 @@ from types import ModuleType
 from typing import Any
 
 from golc.embed.names import BUILTINS, WORDS, golc_name
+from golc.embed.places import innermost
 from golc.embed.terms import Term
 from golc.theory.suggest import did_you_mean
 
@@ -44,9 +45,7 @@ def cure(error: BaseException, file: str) -> str | None:
 
 def _names_around(error: BaseException) -> Iterator[str]:
     """What has a name where an exception was raised."""
-    where = error.__traceback__
-    while where is not None and where.tb_next is not None:
-        where = where.tb_next
+    where = innermost(error)
     if where is not None:
         yield from where.tb_frame.f_locals
         yield from where.tb_frame.f_globals

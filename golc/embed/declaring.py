@@ -15,7 +15,7 @@ from golc.embed.places import argument, caller
 from golc.embed.reading import declarations
 from golc.embed.reading.declarations import Formula, Translator
 from golc.embed.reading.functions import translated
-from golc.embed.terms import Named
+from golc.embed.terms import PROGRAMS, Named
 from golc.embed.types import TypeHandle
 from golc.embed.values import expr
 from golc.syntax import tree
@@ -26,7 +26,7 @@ Make: TypeAlias = Callable[[Translator, tree.Ident], tree.Declaration]
 WITHOUT_PARAMETERS = ("const", "type", "constraint", "invariant", "goal", "prune", "scenario", "device")
 """The kinds of declarations whose functions have none."""
 
-SPACES = {"action": "action", "exogenous action": "action", "procedure": "action", "scenario": "scenario"}
+SPACES = {**dict.fromkeys(PROGRAMS, "action"), "scenario": "scenario"}
 """The namespaces of the kinds of declarations that do not share that of terms."""
 
 

@@ -6,21 +6,18 @@ import contextlib
 import linecache
 import os
 import sys
-import traceback
 import warnings
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from types import ModuleType, TracebackType
+from types import ModuleType
 
-from golc.diagnostics import Code, Diagnostic, Label, Source, Span, UserError
-from golc.embed.cures import cure
+from golc.diagnostics import Code, Diagnostic, Source, Span, UserError
 from golc.embed.errors import refused
+from golc.embed.failures import raised, syntax_error
 from golc.embed.parts import Written
-from golc.embed.places import code_span, line_span, offset, source_of
+from golc.embed.places import source_of
 from golc.embed.theory import Theory
-from golc.theory.python_file import failure, logger
-
-HERE = str(Path(__file__).parent)
+from golc.theory.python_file import logger
 
 
 def read_theory(path: str | Path) -> Written:
@@ -41,7 +38,7 @@ def read_theory(path: str | Path) -> Written:
         except (KeyboardInterrupt, MemoryError):
             raise
         except BaseException as error:
-            raise UserError(*_raised(error, source), *_found_so_far(vars(module), source)) from None
+            raise UserError(*raised(error, source), *_found_so_far(vars(module))) from None
         # Plain functions that translated ones call run only now; they, too, may print and import what lies beside.
         return _only_theory(vars(module), source).written()
 
@@ -59,20 +56,10 @@ def _checked(name: str) -> Source:
             # Python keeps no lines of a file that says it is in an encoding that Python does not know.
             compile(source.text or read.text.encode(), name, "exec")
     except SyntaxError as error:
-        raise UserError(_syntax(error, source if source.text else read)) from None
+        raise UserError(syntax_error(error, source if source.text else read)) from None
     except (ValueError, RecursionError, MemoryError) as error:
         raise refused(Code.PYTHON_SYNTAX, f"Python cannot read this: {error}", Span(source, 0, 0)) from None
     return source
-
-
-def _syntax(error: SyntaxError, source: Source) -> Diagnostic:
-    line, column = error.lineno or 1, error.offset or 0
-    start = min(offset(source, line, 0) + max(0, column - 1), len(source.text))
-    end = start + 1
-    if error.end_lineno == line and (error.end_offset or 0) > column:
-        end = offset(source, line, 0) + (error.end_offset or 0) - 1
-    message = f"Python cannot read this: {error.msg}"
-    return Diagnostic(Code.PYTHON_SYNTAX, message, Span(source, start, min(end, len(source.text))))
 
 
 @contextlib.contextmanager
@@ -118,33 +105,6 @@ def _beside(folder: Path, names: list[str]) -> list[str]:
     return found
 
 
-def _raised(error: BaseException, source: Source) -> tuple[Diagnostic, ...]:
-    """What to say of an exception that running a theory has raised."""
-    if isinstance(error, UserError):
-        return error.diagnostics
-    places = list(_places(error.__traceback__))
-    own = [place for place in places if place.source is source]
-    place = own[-1] if own else (places[-1] if places else Span(source, 0, 0))
-    labels = [Label(each, "called here") for each in own[:1] if each is not place]
-    labels += [Label(each, "raised here") for each in places[-1:] if each is not place]
-    if isinstance(error, SyntaxError):
-        broken = source_of(error.filename or "")
-        if broken.text:
-            return (_syntax(error, broken),)
-    message = f"Python fails here with {failure(error)}"
-    return (Diagnostic(Code.PYTHON_RAISED, message, place, labels=tuple(labels), help=cure(error, source.name)),)
-
-
-def _places(where: TracebackType | None) -> Iterator[Span]:
-    """The places of a traceback in files outside this package whose source is there."""
-    for frame, line in traceback.walk_tb(where):
-        code = frame.f_code
-        if not code.co_filename.startswith((HERE, "<frozen")) and (source := source_of(code.co_filename)).text:
-            instruction = where.tb_lasti if where is not None and where.tb_frame is frame else -1
-            yield code_span(source, code, instruction, line) if instruction >= 0 else line_span(source, line)
-        where = None if where is None else where.tb_next
-
-
 def _theories(names: Mapping[str, object]) -> list[Theory]:
     found: list[Theory] = []
     for value in names.values():
@@ -153,7 +113,7 @@ def _theories(names: Mapping[str, object]) -> list[Theory]:
     return found
 
 
-def _found_so_far(names: Mapping[str, object], source: Source) -> tuple[Diagnostic, ...]:
+def _found_so_far(names: Mapping[str, object]) -> tuple[Diagnostic, ...]:
     """What is wrong with the functions of theories that a failing file has begun, as far as names are not to blame."""
     found = [diagnostic for theory in _theories(names) for diagnostic in theory.written().findings.diagnostics]
     return tuple(each for each in found if each.code not in (Code.UNKNOWN_NAME, Code.UNKNOWN_ACTION))
@@ -169,7 +129,8 @@ def _only_theory(names: Mapping[str, object], source: Source) -> Theory:
     start = Span(source, 0, 0)
     if not theories:
         help_ = 'begin it with `from golc.embed import Theory` and `theory = Theory("delivery")`'
-        if Theory in names.values():
+        # Asked by identity, for terms have no `==` of Python's.
+        if any(value is Theory for value in names.values()):
             help_ = "call the function that makes it where every import runs it: `theory = delivery(6)`"
         raise refused(Code.NO_THEORY, "the file makes no theory", start, help_)
     several = ", ".join(f"`{theory.name}`" for theory in theories)

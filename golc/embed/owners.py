@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Container
+from collections.abc import Container, Iterable
 from typing import TYPE_CHECKING
 
 from golc.diagnostics import Code, Diagnostic
 from golc.embed.errors import Refused
 from golc.syntax import tree
-from golc.syntax.walk import descendants
 
 if TYPE_CHECKING:
     from golc.embed.parts import Parts
@@ -32,15 +31,15 @@ def owned(name: str, owner: Parts | None) -> str:
     return name if owner is None else Owned(name, owner)
 
 
-def check_owners(declaration: tree.Declaration, owners: Container[Parts]) -> None:
-    """Raise ``Refused`` for every name in a declaration that a theory not among the ``owners`` has declared."""
-    foreign = [
-        node
-        for node in descendants(declaration)
-        if isinstance(node, tree.Ident) and isinstance(node.text, Owned) and node.text.owner not in owners
-    ]
+def check_owners(nodes: Iterable[tree.Node], owners: Container[Parts]) -> None:
+    """Raise ``Refused`` for every name among some nodes that a theory not among the ``owners`` has declared."""
+    foreign = [node for node in nodes if isinstance(node, tree.Ident) and _is_foreign(node.text, owners)]
     if foreign:
-        raise Refused(*map(_finding, foreign))
+        raise Refused(*map(_finding, sorted(foreign, key=lambda name: name.span.start)))
+
+
+def _is_foreign(name: str, owners: Container[Parts]) -> bool:
+    return isinstance(name, Owned) and name.owner not in owners
 
 
 def _finding(name: tree.Ident) -> Diagnostic:

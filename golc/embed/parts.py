@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from golc.diagnostics import Findings, Source, Span
+from golc.embed.depth import nodes
 from golc.embed.errors import Refused
 from golc.embed.owners import Owned, check_owners
 from golc.embed.places import calling_frame, statement_around
-from golc.embed.reading.depth import check_depth
 from golc.syntax import tree
 from golc.theory.recursion import deep_recursion
 
@@ -85,8 +85,7 @@ class Parts:
             for making in self._makings(set()):
                 try:
                     node = making()
-                    check_depth(node)
-                    check_owners(node, owners)
+                    check_owners(nodes(node), owners)
                 except Refused as error:
                     findings.diagnostics += error.diagnostics
                     unread += [statement_around(finding.span) for finding in error.diagnostics]

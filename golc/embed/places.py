@@ -7,7 +7,7 @@ import linecache
 import sys
 from functools import cache
 from pathlib import Path
-from types import CodeType, FrameType
+from types import CodeType, FrameType, TracebackType
 
 from golc.diagnostics import Source, Span
 
@@ -110,6 +110,14 @@ def code_span(source: Source, code: CodeType, instruction: int, line: int) -> Sp
     if first is None or last is None or column is None or end is None:
         return line_span(source, line)
     return Span(source, offset(source, first, column), offset(source, last, end))
+
+
+def innermost(error: BaseException) -> TracebackType | None:
+    """Where an exception was raised, if it was."""
+    where = error.__traceback__
+    while where is not None and where.tb_next is not None:
+        where = where.tb_next
+    return where
 
 
 def argument(call: Span, index: int | None, keyword: str) -> Span:

@@ -21,6 +21,10 @@ _TURNED = {"<": ">", "<=": ">=", ">": "<", ">=": "<=", "=": "=", "!=": "!="}
 """What a comparison says with its sides exchanged."""
 
 
+PROGRAMS = ("action", "exogenous action", "procedure")
+"""The kinds of names that a program calls."""
+
+
 class Variable(str):
     """The name of a bound variable; its identity tells it from others with this name."""
 

@@ -10,6 +10,7 @@ from golc.nqc.actionmap import ActionMap, Entry
 from golc.nqc.source import Definition, Kind, NqcSource
 from golc.nqc.wire import Wire
 from golc.nqc.words import complaint
+from golc.theory.forms import behaviour_text, setting_text
 from golc.theory.suggest import closest, did_you_mean
 from golc.theory.theory import ByCall, ByStart, Device
 
@@ -133,7 +134,7 @@ def _check_form(behaviour: Wanted, definition: Definition, findings: Findings) -
             f"`{behaviour.name}` is {SPOKEN[definition.kind]}, which cannot be {'called' if is_task else 'started'}",
             span,
             labels=labels,
-            help=f"write `by {word} {behaviour.name}`",
+            help=f"write `{behaviour_text(word, behaviour.name, span)}`",
         )
     elif not is_task and definition.kind is Kind.SUB and behaviour.arguments:
         findings.error(
@@ -186,7 +187,7 @@ def _check_messages(wire: Wire, nqc: NqcSource, device: Device, findings: Findin
                 Code.DEVICE_SETTING,
                 f"the NQC file says {macro} {value}, but the device's {setting} is {getattr(wire, setting)}",
                 device.span,
-                help=f"write `set {setting} {value}` in the device's block",
+                help=f"write `{setting_text(setting, value, device.span)}` in the device's block",
             )
 
 

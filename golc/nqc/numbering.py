@@ -11,6 +11,7 @@ from golc.diagnostics import Code, Findings, Label
 from golc.nqc.actionmap import DEFAULT_TIMEOUT, LARGEST, ActionMap, Entry, value_number
 from golc.nqc.wire import wire_of
 from golc.theory.fitting import size
+from golc.theory.forms import name_text, type_text, word
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, Device, Parameter
 from golc.theory.types import INT, Interval, Optional, Type, show
 
@@ -58,9 +59,10 @@ def _draft(theory: BasicActionTheory, binding: Binding, findings: Findings) -> E
         if isinstance(slot, Parameter) and not slot.type.finite:
             findings.error(
                 Code.BINDING_UNBOUNDED,
-                f"`{action.name}` cannot have a number for each argument: `{slot.name}` is of type {slot.type}",
+                f"`{action.name}` cannot have a number for each argument: "
+                f"`{slot.name}` is of type `{type_text(slot.type, binding.span)}`",
                 binding.span,
-                help=f"bind an interval, such as `{action.name}({slot.name}: 1..8)`" if slot.type == INT else None,
+                help=f"bind an interval, such as `{_interval_of(binding, slot.name)}`" if slot.type == INT else None,
             )
             return None
     return Entry(
@@ -75,6 +77,12 @@ def _draft(theory: BasicActionTheory, binding: Binding, findings: Findings) -> E
         timeout=DEFAULT_TIMEOUT if binding.timeout is None else float(binding.timeout),
         span=binding.span,
     )
+
+
+def _interval_of(binding: Binding, parameter: str) -> str:
+    name = name_text(binding.action, binding.span)
+    python = f'bind({name}(var("{parameter}", interval(1, 8))))'
+    return binding.span.either(f"{name}({parameter}: 1..8)", python)
 
 
 def _place(drafts: Sequence[Entry], explicit: set[int]) -> list[Entry]:
@@ -101,7 +109,9 @@ def _free(taken: Iterable[tuple[int, int]], count: int) -> int:
 
 def _check_clashes(entries: Sequence[Entry], findings: Findings) -> None:
     for one, other in pairwise(sorted(entries, key=lambda entry: entry.first)):
-        if other.first <= one.last:
+        # The same instances, bound again, are a finding already.
+        again = (other.action, other.args) == (one.action, one.args)
+        if other.first <= one.last and not again:
             findings.error(
                 Code.NUMBER_CLASH,
                 f"`{other.action}` takes {_numbers(other)}, which `{one.action}` has already",
@@ -128,9 +138,11 @@ def _check_arguments(entry: Entry, findings: Findings) -> None:
         if not entry.exogenous and isinstance(slot, Parameter) and not _fits(slot.type, -LARGEST - 1):
             findings.error(
                 Code.ARGUMENT_NUMBER,
-                f"the values of {slot.type} cannot be given to a behaviour as 16-bit integers that differ",
+                f"the values of `{type_text(slot.type, entry.span)}` cannot be given to a behaviour "
+                "as 16-bit integers that differ",
                 slot.span if slot.span.end else entry.span,
-                help="integers reach the brick as they are, symbols by their index, and `none` not at all",
+                help="integers reach the brick as they are, symbols by their index, "
+                f"and `{word('none', entry.span)}` not at all",
             )
 
 
@@ -158,12 +170,14 @@ def _check_results(action: Action, entry: Entry, findings: Findings) -> None:
     elif entry.table is not None:
         _check_table(action, entry, findings)
     elif entry.sensed is not None and not _answers(entry.sensed):
-        example = show(entry.sensed.values[0]) if entry.sensed.finite else "…"
+        example = word(show(entry.sensed.values[0]), entry.span) if entry.sensed.finite else "…"
+        table = entry.span.either(f"{{0: {example}}}", f"table={{0: {example}}}")
         findings.error(
             Code.SENSING_NUMBER,
-            f"`{action.name}` senses a value of {entry.sensed}, but a brick answers with a number from 0 to {LARGEST}",
+            f"`{action.name}` senses a value of `{type_text(entry.sensed, entry.span)}`, "
+            f"but a brick answers with a number from 0 to {LARGEST}",
             entry.span,
-            help=f"say in the binding what each number means, such as `{{0: {example}}}`",
+            help=f"say in the binding what each number means, such as `{table}`",
         )
 
 
@@ -186,5 +200,8 @@ def _check_table(action: Action, entry: Entry, findings: Findings) -> None:
             )
         if value not in entry.sensed:
             findings.error(
-                Code.SENSING_NUMBER, f"`{show(value)}` is not a value of {entry.sensed}, which is sensed", entry.span
+                Code.SENSING_NUMBER,
+                f"`{word(show(value), entry.span)}` is not a value of `{type_text(entry.sensed, entry.span)}`, "
+                "which is sensed",
+                entry.span,
             )

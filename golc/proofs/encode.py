@@ -34,7 +34,8 @@ from golc.proofs.encoded import (
     total,
     truth,
 )
-from golc.proofs.symbols import NeedsPythonError, NotDecidedError
+from golc.proofs.rigid import is_open
+from golc.proofs.symbols import NotDecidedError
 from golc.proofs.values import Values, evaluated
 from golc.theory.border import PythonFunction, extern_value
 from golc.theory.fitting import size, strip_optional
@@ -232,13 +233,11 @@ class Encoder(Values):
         return with_ok(value, both(ok, self.within(value, static.type)))
 
     def _extern(self, static: Static, args: Env, ok: Formula) -> Encoded:
-        """A function of Python, as a table, or, if it is not executed, any function of its declared types."""
-        assert isinstance(static.body, PythonFunction)
-        if not static.body.file.trusted:
-            return with_ok(self._any_function(static, args), ok)
+        """A function of Python, as a table; if it is not executed, or has too many arguments, any function."""
         types = [parameter.type for parameter in static.parameters]
-        if not all(type_.finite for type_ in types) or math.prod(map(size, types)) > MOST_INSTANCES:
-            raise NotDecidedError(f"`{static.name}` has more arguments than a table of its values can have")
+        few = all(type_.finite for type_ in types) and math.prod(map(size, types)) <= MOST_INSTANCES
+        if is_open(static) or not few:
+            return with_ok(self._any_function(static, args), ok)
         found = Encoded(NUMBER, 0)
         for key in itertools.product(*[type_.values for type_ in types]):
             fits = both(*[same(arg, self.literal(value)) for arg, value in zip(args, key, strict=True)])
@@ -251,7 +250,7 @@ class Encoder(Values):
         return with_ok(found, ok)
 
     def _any_function(self, static: Static, args: Env) -> Encoded:
-        """What any function of the parameters gives for arguments, the same wherever they are the same."""
+        """What any function of the declared types gives for arguments: for the same ones the same value."""
         places: list[Any] = []
         for arg, parameter in zip(args, static.parameters, strict=True):
             if parameter.type.finite:
@@ -260,7 +259,7 @@ class Encoder(Values):
                 is_none = equal(arg.kind, NONE)
                 places += [chosen(is_none, 1, 0), chosen(is_none, 0, arg.number)]
             else:
-                raise NeedsPythonError(static.name)
+                raise NotDecidedError(f"`{static.name}` has arguments that are no places in a table")
         return self.of_type(static.name, static.type, tuple(places))
 
     def _epistemic(self, term: Epistemic, env: Env, read: Read) -> Encoded:

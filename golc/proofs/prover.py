@@ -181,7 +181,7 @@ class Prover:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
                 if leaf.is_witness:
                     return self._witness(question, domains, [(case, leaf)], small)
-        except NeedsPythonError:
+        except NeedsPythonError:  # which is then left to the solver, whatever the function is
             return self.asking.witness(question, domains, values, None)
         except NotDecidedError as error:
             return replace(why, reason=f"{why.reason}; {error}")

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import io
 import re
+import tokenize
 from collections.abc import Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 from golc.diagnostics import Code, Diagnostic, Edit, Fix, Severity, Source, Span
@@ -68,11 +71,25 @@ def _open(examined: Examined) -> bool:
 
 def ignores(source: Source) -> Iterator[Ignore]:
     """The comments of a source, in its order; a ``#`` in a string begins none."""
-    for part in TEXT_OR_COMMENT.finditer(source.text):
-        found = DIRECTIVE.search(source.text, part.start(), part.end()) if part["comment"] else None
+    for start, end in _python_comments(source) if source.python else _comments(source):
+        found = DIRECTIVE.search(source.text, start, end)
         if found is not None and (found["word"] == WORD or did_you_mean(found["word"], [WORD])):
             span, word = Span(source, *found.span()), Span(source, *found.span("word"))
             yield Ignore(span, word, _covered(source, span.line), _codes(source, found))
+
+
+def _comments(source: Source) -> Iterator[tuple[int, int]]:
+    for part in TEXT_OR_COMMENT.finditer(source.text):
+        if part["comment"]:
+            yield part.span()
+
+
+def _python_comments(source: Source) -> Iterator[tuple[int, int]]:
+    with suppress(tokenize.TokenError, SyntaxError):  # what Python cannot read is a finding of its own
+        for token in tokenize.generate_tokens(io.StringIO(source.text).readline):
+            if token.type == tokenize.COMMENT:
+                start = source.line_starts[token.start[0] - 1] + token.start[1]
+                yield start, start + len(token.string)
 
 
 def _covered(source: Source, line: int) -> int:

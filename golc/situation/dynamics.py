@@ -20,7 +20,8 @@ from golc.situation.knowing import Knowing, placed
 from golc.situation.layout import Layout, World
 from golc.situation.worlds import Assignment, State, Worlds, agreed, keep, shown, survey, with_value
 from golc.theory import errors
-from golc.theory.fitting import describe, includes
+from golc.theory.fitting import includes
+from golc.theory.forms import describe
 from golc.theory.order import spelt
 from golc.theory.recursion import EVALUATION, deep_recursion
 from golc.theory.terms import Choice, FluentTerm, Term, Variable
@@ -200,7 +201,7 @@ class Dynamics:
         for parameter, arg in zip(parameters, args, strict=True):
             if arg not in parameter.type:
                 call = show_call(action, args)
-                return f"{show(arg)} in `{call}` is outside {describe(parameter.type)}"
+                return f"{show(arg)} in `{call}` is outside {describe(parameter.type, parameter.span)}"
         return None
 
     def _compile_possible_in(self, name: str) -> Callable[..., bool]:

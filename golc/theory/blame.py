@@ -8,7 +8,7 @@ use, or that finding, then speaks for all.
 from __future__ import annotations
 
 import bisect
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from enum import Enum
 
@@ -16,12 +16,16 @@ from golc.diagnostics import Diagnostic, Label, Source, Span
 
 
 class Matter(Enum):
-    """What a use and a declaration may disagree about; the value is what helps."""
+    """What a use and a declaration may disagree about; the value is what helps in golc's own form."""
 
     TYPE = "correct the type of `{name}` where it is declared, or each of these uses"
     NONE = "write `?` behind the type of `{name}` where it is declared, or correct each of these uses"
     ARITY = "correct the parameters of `{name}` where it is declared, or each of these uses"
     NAME = "declare it by the name `{used}`: nothing uses `{name}`"
+
+
+OPTIONAL = "write `… | None` as the type of `{name}` where it is declared, or correct each of these uses"
+"""What helps in Python where a declaration leaves out ``none``."""
 
 
 @dataclass(frozen=True)
@@ -49,8 +53,11 @@ class Blame:
         """The declarations that have fewer parameters than every use gives them arguments."""
         return {place for place in self.short if Suspect(Matter.ARITY, place) not in self.cleared}
 
-    def settle(self, findings: list[Diagnostic], faulty: Iterable[Suspect]) -> list[Diagnostic]:
-        """The findings without those that another one speaks for; ``faulty`` have findings of their own."""
+    def settle(
+        self, findings: list[Diagnostic], faulty: Iterable[Suspect], names: Mapping[Span, str]
+    ) -> list[Diagnostic]:
+        """The findings without those that another one speaks for; ``faulty`` have findings of their own, ``names`` are
+        those of declarations, by their places."""
         known = {id(finding) for finding in findings}
         accused = [(finding, suspects) for finding, suspects in self.accused if id(finding) in known]
         own = set(faulty)
@@ -65,17 +72,19 @@ class Blame:
             spoken.update(dict.fromkeys(map(id, found)))
             if suspect not in own and found:
                 found.sort(key=lambda finding: (finding.span.source.name, finding.span.start))
-                spoken[id(found[0])] = _for_all(suspect, found)
+                spoken[id(found[0])] = _for_all(suspect, found, names)
         settled = [spoken.get(id(finding), finding) for finding in findings]
         return [finding for finding in settled if finding is not None]
 
 
-def _for_all(suspect: Suspect, uses: list[Diagnostic]) -> Diagnostic:
+def _for_all(suspect: Suspect, uses: list[Diagnostic], names: Mapping[Span, str]) -> Diagnostic:
     first = uses[0]
     if len(uses) == 1:
         return first
-    name = suspect.place.text
+    name = names.get(suspect.place, suspect.place.text)
     help_ = suspect.matter.value.format(name=name, used=first.span.text)
+    if suspect.matter is Matter.NONE:
+        help_ = suspect.place.either(help_, OPTIONAL.format(name=name))
     labels = first.labels or (Label(suspect.place, f"`{name}` is declared here"),)
     return replace(first, labels=labels, notes=(*first.notes, *also(uses)), help=help_)
 

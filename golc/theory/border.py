@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 
 from golc.diagnostics import Span
 from golc.theory import errors
-from golc.theory.fitting import describe
 from golc.theory.foreign import golc_value
+from golc.theory.forms import describe
 from golc.theory.python_file import NotTrustedError, PythonError, PythonFile
 from golc.theory.types import Value, show_call
 
@@ -58,7 +58,8 @@ def _computed(static: Static, file: PythonFile, args: tuple[Value, ...], span: S
         result = file.guarded(what, lambda: function(*args))
         value = file.guarded(what, lambda: golc_value(result, static.type))
         if value not in static.type:
-            reason = f"{what} is {reprlib.repr(result)} in {file.path}, which is not of type {describe(static.type)}"
+            type_ = describe(static.type, static.span)
+            reason = f"{what} is {reprlib.repr(result)} in {file.path}, which is not of type {type_}"
             raise PythonError(reason, file.definition(function))
     except NotTrustedError as error:
         raise errors.not_executed(span, static.name, str(error)) from None

@@ -25,6 +25,7 @@ from golc.theory.theory import Constant, Definition, Parameter, Static
 from golc.theory.types import Type
 
 WORD = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
+_COLUMN = re.compile(r"^[^\s#]", re.MULTILINE)
 _TYPE_FAULTS = (Code.TYPE_MISMATCH, Code.NO_INITIAL, Code.TABLE)
 
 
@@ -87,7 +88,10 @@ class Context:
     _active: dict[tuple[str, Entry], None] = field(default_factory=dict)
     blame: Blame = field(default_factory=Blame)
     _missing: dict[tuple[str, str], list[Diagnostic]] = field(default_factory=dict)
+    _misspelt: dict[tuple[str, Code, Span | None], list[Diagnostic]] = field(default_factory=dict)
+    """The uses of each name that is like another one, by what it is like."""
     _words: Counter[str] | None = None
+    _spare: dict[Span, bool] = field(default_factory=dict)
 
     @property
     def names(self) -> Names:
@@ -173,15 +177,24 @@ class Context:
         self.findings.add(finding)
         self.blame.accuse(finding, suspects)
 
-    def misspelt(self, code: Code, name: Span, similar: Suggestion) -> None:
-        """A name that is declared nowhere, but one like it is."""
+    def misspelt(self, code: Code, name: tree.Ident, similar: Suggestion, bound: Span | None = None) -> None:
+        """A name that is declared nowhere, but one like it is; ``bound`` is the place that binds that one if it is a
+        variable."""
         kind = "type" if code is Code.UNKNOWN_TYPE else similar.kind
-        suspects = [Suspect(Matter.NAME, label.span) for label in similar.labels if self._is_spare(similar.name)]
+        place = similar.labels[0].span if similar.labels else bound
+        spare = place is not None and self._is_spare(similar.name, bound)
+        suspects = [Suspect(Matter.NAME, place)] if place is not None and spare else []
         message = f"unknown {kind} `{name.text}`"
-        self.error(code, message, name, "not declared", similar.help, similar.labels, suspects)
+        help_ = similar.help(name.span)
+        self.error(code, message, name.span, "not declared", help_, similar.labels, suspects)
+        self._misspelt.setdefault((name.text, code, place), []).append(self.findings.diagnostics[-1])
 
-    def _is_spare(self, name: str) -> bool:
-        """Whether a name stands nowhere but in its declaration."""
+    def _is_spare(self, name: str, bound: Span | None) -> bool:
+        """Whether a name stands nowhere but in its declaration, or a variable but where it is bound."""
+        if bound is not None:
+            if bound not in self._spare:
+                self._spare[bound] = WORD.findall(_around(bound)).count(name) == 1
+            return self._spare[bound]
         if self._words is None:
             texts = {id(entry.span.source): entry.span.source.text for entry in self.names.values.entries.values()}
             texts[id(self.source)] = self.source.text
@@ -210,7 +223,10 @@ class Context:
         faulty = [Suspect(matter, entry.span) for entry in wrong for matter in _untyped(entry.node)]
         faulty += [Suspect(Matter.ARITY, entry.span) for entry in self._wrong((Code.TABLE, Code.PYTHON))]
         faulty += [Suspect(Matter.NAME, entry.span) for entry in self._wrong((Code.PYTHON,))]
-        self.findings.diagnostics[:] = self.blame.settle(self.findings.diagnostics, faulty)
+        spaces = (self.names.values, self.names.doings)
+        names = {entry.span: entry.name for space in spaces for entry in space.entries.values()}
+        settled = self.blame.settle(self.findings.diagnostics, faulty, names)
+        self.findings.diagnostics[:] = _said_once(settled, self._misspelt.values())
 
     def _merge_missing(self) -> None:
         """Sort the uses of each missing name. A use that is like some other name is one of them all the same; and
@@ -246,6 +262,29 @@ class Context:
         found = Places(finding.span for finding in self.findings.diagnostics if finding.code in codes)
         kinds = (Kind.FLUENT, Kind.STATIC, Kind.EXTERN, Kind.DEFINITION)
         return [entry for entry in self.names.values.of(*kinds) if found.inside(entry.node.span)]
+
+
+def _said_once(findings: list[Diagnostic], uses: Iterable[list[Diagnostic]]) -> list[Diagnostic]:
+    """The findings, of which those about several uses of one name are one; each comes in the order of the text."""
+    left = {id(finding): finding for finding in findings}
+    for same in uses:
+        found = [left[id(use)] for use in same if id(use) in left]
+        found.sort(key=lambda finding: (finding.span.source.name, finding.span.start))
+        for more in found[1:]:
+            del left[id(more)]
+        if found[1:]:
+            left[id(found[0])] = replace(found[0], notes=(*found[0].notes, *also(found)))
+    return [*left.values()]
+
+
+def _around(span: Span) -> str:
+    """The declaration that a span stands in: what begins in the first column, to the next that does."""
+    text = span.source.text
+    start = text.rfind("\n", 0, span.start) + 1
+    while start and text[start] in " \t\r\n#":
+        start = text.rfind("\n", 0, start - 1) + 1
+    end = _COLUMN.search(text, span.end)
+    return text[start : len(text) if end is None else end.start()]
 
 
 def _begins_in(span: Span, body: Span) -> bool:

@@ -167,7 +167,7 @@ class _Collector:
             f"unknown value `{symbol.text}`",
             symbol.span,
             "not declared, while others of this enumeration are",
-            similar.help if similar else "list only values that are declared, or only new ones",
+            similar.help(symbol.span) if similar else "list only values that are declared, or only new ones",
             similar.labels if similar else (),
         )
 

@@ -92,7 +92,8 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
     """Where nothing is wrong so far, imports have been joined, or there is no file whose folder they could be in."""
     for node in file.declarations:
         if isinstance(node, tree.Import):
-            message = "there can be no `import` in a text that is no file"
+            word = node.span.either("import", "import_")
+            message = f"there can be no `{word}` in a text that is no file"
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 

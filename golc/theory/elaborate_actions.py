@@ -11,15 +11,16 @@ from golc.theory.elaborate_collections import determined
 from golc.theory.elaborate_knowledge import new_value
 from golc.theory.elaborate_names import unknown_fluent
 from golc.theory.elaborate_terms import arguments, bind, formula, number, term
-from golc.theory.elaborate_types import LARGEST, elaborate_type, parameters
+from golc.theory.elaborate_types import LARGEST, elaborate_type, give_a_range, parameters
 from golc.theory.elaborate_values import closed_term, parameter_scope
 from golc.theory.expectations import fits
 from golc.theory.fitting import BROKEN, size
+from golc.theory.forms import is_call, type_text, typed_declaration
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.suggest import did_you_mean
 from golc.theory.terms import Choice, Literal, Term
 from golc.theory.theory import Action, Definition, Effect, Fluent
-from golc.theory.types import BOOL, show
+from golc.theory.types import BOOL, Type, show
 
 SOURCES = ("rcx", "operator", "host", "self")
 """The kinds of device; who may report an exogenous action is one of them, or a device by its name."""
@@ -67,8 +68,9 @@ def _initial_value(
     initial = term(context, scope, written, signature.type)
     if node.type is None and initial.type is not BROKEN and initial.type.kinds.isdisjoint(BOOL.kinds):
         message = f"{what} has no type, which makes it relational (`bool`), but its initial value is not a formula"
-        help_ = f"write its type: `fluent {node.name.text}: {initial.type} = {initial.span.text}`"
-        context.error(Code.TYPE_MISMATCH, message, initial.span, f"this is of type `{initial.type}`", help_)
+        declared = typed_declaration("fluent", node.name, initial.type, initial.span.text)
+        marker = f"this is of type `{type_text(initial.type, initial.span)}`"
+        context.error(Code.TYPE_MISMATCH, message, initial.span, marker, f"write its type: `{declared}`")
         return None
     good = fits(context, initial, signature.type, what) and closed_term(context, initial, "an initial value")
     return initial if good else None
@@ -78,14 +80,17 @@ def _no_initial(context: Context, node: tree.Fluent, signature: Signature) -> No
     name = node.name.text
     if signature.type is BROKEN:
         return
-    value = "false" if signature.type == BOOL else "…"
-    context.error(
-        Code.NO_INITIAL,
-        f"fluent `{name}` has no initial value",
-        node.name.span,
-        "what is it at first?",
-        f"add `= {value}` at the end of the declaration",
-    )
+    message, marker = f"fluent `{name}` has no initial value", "what is it at first?"
+    context.error(Code.NO_INITIAL, message, node.name.span, marker, _add_value(node.name, signature.type))
+
+
+def _add_value(name: tree.Ident, type_: Type) -> str:
+    """How a declaration gets the initial value that it lacks."""
+    value = name.span.either("false", "False") if type_ == BOOL else "…"
+    python = f"write `return {value}` in its body"
+    if is_call(name.span):
+        python = f"write it behind the type: `{typed_declaration('fluent', name, type_, value)}`"
+    return name.span.either(f"add `= {value}` at the end of the declaration", python)
 
 
 def definition_signature(context: Context, entry: Entry) -> Signature | None:
@@ -182,16 +187,18 @@ def _enumerable(context: Context, signature: Signature) -> None:
     for parameter in signature.parameters:
         if parameter.type is not BROKEN and not parameter.type.finite:
             what = f"parameter `{parameter.name}` of expected exogenous action `{signature.entry.name}`"
-            message = f"{what} has to be of a type that can be enumerated, and `{parameter.type}` cannot"
-            help_ = "give a range, for example `1..10`, or a declared type"
-            context.error(Code.BAD_TYPE, message, parameter.span, "look-ahead tries every value", help_)
+            place, marker = parameter.span, "look-ahead tries every value"
+            written = type_text(parameter.type, place)
+            message = f"{what} has to be of a type that can be enumerated, and `{written}` cannot"
+            context.error(Code.BAD_TYPE, message, place, marker, give_a_range(place))
 
 
 def _sources(context: Context, node: tree.Exog) -> tuple[str, ...]:
     known = [*dict.fromkeys((*SOURCES, *context.device_names))]
     for source in node.sources:
         if source.text not in known:
-            help_ = did_you_mean(source.text, known) or f"known are {', '.join(known)}"
+            reporting = [name for name in known if name not in ("host", "self")]
+            help_ = did_you_mean(source.text, reporting) or f"write one of {', '.join(reporting)}"
             message = f"unknown source `{source.text}`"
             context.error(Code.UNKNOWN_NAME, message, source.span, "neither a kind of device nor a device", help_)
     return tuple([source.text for source in node.sources])

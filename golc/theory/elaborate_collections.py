@@ -91,7 +91,8 @@ def determined(context: Context, found: Term) -> Term:
     if not is_undetermined(found.type):
         return found
     message = f"nothing says what the elements of `{shown(found)}` are"
-    help_ = "write it where its type is known, for example `static nobody: set[int] = {}`"
+    example = found.span.either("static nobody: set[int] = {}", 'nobody = theory.static("nobody", set[int], set())')
+    help_ = f"write it where its type is known, for example `{example}`"
     context.error(Code.BAD_TYPE, message, found.span, "empty, of no type", help_)
     return broken(found.span)
 

@@ -16,7 +16,8 @@ from golc.theory.elaborate_names import arity_fits, doing
 from golc.theory.elaborate_statements import spoken
 from golc.theory.elaborate_types import LARGEST, elaborate_type
 from golc.theory.elaborate_values import argument, parameter_scope
-from golc.theory.fitting import BROKEN, describe, includes, size
+from golc.theory.fitting import BROKEN, includes, size
+from golc.theory.forms import describe, type_text
 from golc.theory.scope import Entry, Kind
 from golc.theory.suggest import closest, did_you_mean
 from golc.theory.terms import Literal, Term
@@ -26,19 +27,27 @@ from golc.theory.types import INT, REAL, Type, Value
 
 @dataclass(frozen=True)
 class Abilities:
-    """What the bindings of a kind of device may say."""
+    """What the bindings of a kind of device may say; ``said`` and ``python`` name it in the two forms."""
 
     behaviours: tuple[type, ...]
     said: str
+    python: str
     numbers: bool = False
     file: str | None = None
 
 
+SILENT = "without a word, for nothing is sent"
 KINDS = {
-    "rcx": Abilities((tree.ByCall, tree.ByStart), "`by call …` or `by start …`", numbers=True, file='"….nqc"'),
-    "operator": Abilities((tree.ByPrompt,), '`by prompt "…"`'),
-    "host": Abilities((tree.ByCall,), "`by call …`", file='"….py"'),
-    "self": Abilities((), "without a word, for nothing is sent"),
+    "rcx": Abilities(
+        (tree.ByCall, tree.ByStart),
+        "`by call …` or `by start …`",
+        '`call="…"` or `start="…"`',
+        numbers=True,
+        file="left.nqc",
+    ),
+    "operator": Abilities((tree.ByPrompt,), '`by prompt "…"`', '`prompt="…"`'),
+    "host": Abilities((tree.ByCall,), "`by call …`", '`call="…"`', file="helpers.py"),
+    "self": Abilities((), SILENT, SILENT),
 }
 
 
@@ -56,7 +65,7 @@ def devices(context: Context, nodes: list[tree.Device], sensed: Mapping[str, tup
         if name in first:
             span = (node.name or node.kind).span
             labels = (Label((first[name].name or first[name].kind).span, "first declared here"),)
-            help_ = f'give it a name: `device {node.kind.text} left "left.nqc":`'
+            help_ = f"give it a name: `{_head(node, 'left')}`"
             context.error(Code.DUPLICATE, f"device `{name}` is declared twice", span, "again", help_, labels)
         first.setdefault(name, node)
         device = _device(context, node, sensed)
@@ -77,7 +86,7 @@ def _device(context: Context, node: tree.Device, sensed: Mapping[str, tuple[Term
         context.error(Code.DEVICE, message, node.kind.span, "leave the file out")
     if node.file is None and node.kind.text == "host":
         message = "a device `host` needs the file with its functions"
-        context.error(Code.DEVICE, message, node.kind.span, "which file?", 'write `device host "helpers.py":`')
+        context.error(Code.DEVICE, message, node.kind.span, "which file?", f"write `{_head(node)}`")
     bindings: list[Binding] = []
     settings: dict[str, Setting] = {}
     for item in node.items:
@@ -99,6 +108,15 @@ def _device(context: Context, node: tree.Device, sensed: Mapping[str, tuple[Term
         folder,
         span=(node.name or node.kind).span,
     )
+
+
+def _head(node: tree.Device, name: str | None = None) -> str:
+    """How a device of this kind begins, with its file if it takes one."""
+    kind, abilities = node.kind.text, KINDS.get(node.kind.text)
+    file = abilities.file if abilities else None
+    golc = ["device", kind, *([name] if name else []), *([f'"{file}"'] if file else [])]
+    python = [f'"{kind}"', *([f'file="{file}"'] if file else []), *([f'name="{name}"'] if name else [])]
+    return node.kind.span.either(f"{' '.join(golc)}:", f"@theory.device({', '.join(python)})")
 
 
 def _setting(context: Context, node: tree.Setting, settings: Mapping[str, Setting]) -> Setting | None:
@@ -160,7 +178,7 @@ def _fits_kind(context: Context, device: tree.Device, abilities: Abilities, node
         message = f"`{entry.name}` is an exogenous action, which a device reports and does not carry out"
         context.error(Code.DEVICE, message, behaviour.span, "leave this out")
     elif behaviour is not None and not isinstance(behaviour, abilities.behaviours):
-        message = f"a device `{kind}` carries out actions {abilities.said}"
+        message = f"a device `{kind}` carries out actions {node.span.either(abilities.said, abilities.python)}"
         context.error(Code.DEVICE, message, behaviour.span, f"not by a device `{kind}`")
 
 
@@ -173,7 +191,8 @@ def _fits_number(context: Context, node: tree.Binding, args: tuple[Parameter | F
     if node.number is not None and numbers and count > 1 and not node.ranged:
         many = f"{count}" if count <= LARGEST else f"more than {LARGEST}"
         message = f"`{node.action.text}` has {many} instances here, and each takes a number"
-        help_ = f"write `{node.number} .. {node.action.text}…`, which takes the numbers from {node.number} on"
+        written = node.span.either(f"{node.number} .. {node.action.text}…", f"first={node.number}")
+        help_ = f"write `{written}`, which takes the numbers from {node.number} on"
         context.error(Code.BINDING, message, node.span, f"takes {many} numbers", help_)
 
 
@@ -196,7 +215,7 @@ def _arg(
         case tree.Parameter(name=name):
             type_ = elaborate_type(context, node.type)
             if not _part_of(type_, parameter.type):
-                here, there = describe(type_), describe(parameter.type)
+                here, there = describe(type_, node.span), describe(parameter.type, node.span)
                 message = f"`{name.text}` is of type {here} here, but of type {there} in `{action}`"
                 labels = (Label(parameter.span, "declared here"),)
                 marker, blamed = "not a part of that type", [Suspect(Matter.TYPE, parameter.span)]
@@ -217,11 +236,13 @@ def _unknown_arg(context: Context, node: tree.Ident, parameter: Parameter) -> No
         return
     similar = context.names.similar(node.text, [Kind.SYMBOL, Kind.CONSTANT], 0)
     if similar is None:
-        help_ = f"write its type: `{node.text}: {parameter.type}`"
+        type_ = type_text(parameter.type, node.span)
+        written = node.span.either(f"{node.text}: {type_}", f'var("{node.text}", {type_})')
+        help_ = f"write its type: `{written}`"
         message = f"`{node.text}` is neither a constant nor a parameter with its type"
         context.error(Code.BINDING, message, node.span, "not a constant", help_)
     else:
-        context.misspelt(Code.UNKNOWN_NAME, node.span, similar)
+        context.misspelt(Code.UNKNOWN_NAME, node, similar)
 
 
 def _part_of(type_: Type, whole: Type) -> bool:
@@ -285,10 +306,8 @@ def _number(context: Context, line: tree.TableEntry) -> int | None:
         context.error(Code.BINDING, "a device answers one number", line.span, "one number before the colon")
         return None
     if isinstance(line.value, tree.Number) and isinstance(line.key[0], tree.Apply):
-        message, help_ = (
-            "a table says of each number what it means",
-            f"write `{line.value.span.text}: {line.key[0].span.text}`",
-        )
+        pair = f"{line.value.value}: {line.key[0].span.text}"
+        message, help_ = "a table says of each number what it means", f"write `{line.span.either(pair, f'{{{pair}}}')}`"
         context.error(Code.BINDING, message, line.span, "the number comes first", help_)
         return None
     key: Literal | None = context.constants(context, line.key[0], INT)

@@ -10,7 +10,8 @@ from golc.theory.context import Context
 from golc.theory.elaborate_terms import fitting, formula, term
 from golc.theory.elaborate_types import LARGEST
 from golc.theory.expectations import fits, mismatch, shown
-from golc.theory.fitting import BROKEN, collection, describe, overlap, size
+from golc.theory.fitting import BROKEN, collection, overlap, size
+from golc.theory.forms import describe
 from golc.theory.reading import reached
 from golc.theory.scope import Scope
 from golc.theory.terms import Choice, DefinedTerm, Display, Epistemic, Literal, PossTerm, Term, subterms
@@ -37,8 +38,9 @@ def _unknown(context: Context, type_: Type, span: Span, what: str) -> Choice | N
         return None
     if not type_.finite or size(type_) > LARGEST:
         why = f"has more than {LARGEST} values" if type_.finite else "cannot be enumerated"
-        message = f"{what} cannot be unknown: its type {describe(type_)} {why}"
-        context.error(Code.BAD_TYPE, message, span, "any of its values?", "say which are possible: `one of {…}`")
+        message = f"{what} cannot be unknown: its type {describe(type_, span)} {why}"
+        help_ = f"say which are possible: `{span.either('one of {…}', 'one_of({…})')}`"
+        context.error(Code.BAD_TYPE, message, span, "any of its values?", help_)
         return None
     among = Literal(tuple(type_.values), type=Collection("list", type_), span=span)
     return Choice(among, type=type_, span=span)
@@ -60,16 +62,16 @@ def _among(context: Context, scope: Scope, node: tree.Expr, type_: Type, what: s
     found = term(context, scope, node, BROKEN if type_ is BROKEN else Collection("set" if is_set else "list", type_))
     if found.type is BROKEN or type_ is BROKEN:
         return None
-    whole = collection(found.type)
+    whole, word = collection(found.type), node.span.either("one of", "one_of")
     if whole is None:
-        message = f"`one of` chooses from a set or list, and this is of type {describe(found.type)}"
-        help_ = f"write `one of {{{node.span.text}}}`"
+        message = f"`{word}` chooses from a set or list, and this is of type {describe(found.type, node.span)}"
+        help_ = f"write `{node.span.either(f'one of {{{node.span.text}}}', 'one_of({…})')}`"
         context.error(Code.TYPE_MISMATCH, message, node.span, "not a set or list", help_)
         return None
     needed = Collection(whole.kind, type_)
     if not overlap(whole.element, type_):
         relational = "a fluent without a type is relational, true or false" if type_ == BOOL else None
-        mismatch(context, found, describe(needed), f"`one of` for {what}", relational)
+        mismatch(context, found, describe(needed, node.span), f"`{word}` for {what}", relational)
         return None
     return found if fits(context, found, needed, what) else None
 

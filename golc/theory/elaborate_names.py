@@ -12,15 +12,16 @@ from golc.theory.context import Context, Signature
 from golc.theory.declare import BUILTIN_TYPES, FUNCTIONS
 from golc.theory.elaborate_types import LARGEST, home, named_type
 from golc.theory.fitting import BROKEN, size, strip_optional
+from golc.theory.forms import name_text, word
 from golc.theory.scope import Entry, Kind, Scope
-from golc.theory.suggest import closest, did_you_mean
+from golc.theory.suggest import closest
 from golc.theory.terms import Literal, Variable
 from golc.theory.types import BOOL, Collection, Enumeration, Type, show
 
 ASKING = (*FUNCTIONS, "known", "knows", "possible")
 """Words of the language that stand before an argument."""
 
-VALUES = ("true", "false", "none", "unknown", "waiting")
+VALUES = ("true", "false", "none", "unknown")
 """Words of the language that stand where a value can."""
 
 STATEMENTS = ("skip", "wait")
@@ -121,14 +122,17 @@ def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding,
     labels = (Label(entry.span, f"{entry.kind.phrase} with {takes} is declared here"),)
     marker = f"{given} argument{'s' * (given != 1)} here" if given else "no arguments here"
     message = f"`{name.text}` takes {takes}, not {given or 'none'}"
-    help_ = f"write `{name.text}({_named(entry)})`" if entry.arity else f"write `{name.text}` alone"
+    help_ = f"write `{_written(name, entry, called=not isinstance(node, tree.Binding))}`"
+    help_ += "" if entry.arity else " alone"
     context.error(Code.ARITY, message, name.span, marker, help_, labels, [suspect])
     return False
 
 
-def _named(entry: Entry) -> str:
-    """The names of the parameters of a declaration."""
-    return ", ".join(parameter.name.text for parameter in getattr(entry.node, "parameters", ()))
+def _written(name: tree.Ident, entry: Entry, called: bool) -> str:
+    """A declared name with those of its parameters; in Python an action or a procedure is ``called`` even without."""
+    parameters = [name_text(each.name.text, name.span) for each in getattr(entry.node, "parameters", ())]
+    called &= name.span.source.python and entry.kind in (Kind.ACTION, Kind.EXOGENOUS, Kind.PROCEDURE)
+    return name_text(name.text, name.span) + (f"({', '.join(parameters)})" if parameters or called else "")
 
 
 def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable[Kind]) -> Entry | None:
@@ -140,26 +144,36 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
     wanted = " or ".join(dict.fromkeys(kind.value.removeprefix("exogenous ") for kind in kinds))
     if value is not None:
         message = f"`{name.text}` is {value.kind.phrase}, not an {wanted}"
-        help_ = f"`test {name.text}` goes on only if it holds" if _is_formula(context, value, kinds) else None
+        test = name.span.either(f"test {name.text}", f"test({name_text(name.text, name.span)})")
+        help_ = f"`{test}` goes on only if it holds" if _is_formula(context, value, kinds) else None
         labels = (Label(value.span, "declared here"),)
         context.error(Code.MISUSED_NAME, message, name.span, f"an {wanted} is needed here", help_, labels)
         return None
     similar = context.names.similar(name.text, kinds, given)
     if similar is None:
-        help_ = f"declare it: `action {name.text}`" + (f", or `proc {name.text}: …`" if Kind.PROCEDURE in kinds else "")
+        help_ = _declare_doing(name, kinds, given)
         if Kind.PROCEDURE in kinds and not given:
-            help_ = _as_word(name.text) or help_
+            help_ = _as_word(name) or help_
         context.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
         return None
-    context.misspelt(Code.UNKNOWN_ACTION, name.span, similar)
+    context.misspelt(Code.UNKNOWN_ACTION, name, similar)
     return None
 
 
-def _as_word(name: str) -> str | None:
+def _declare_doing(name: tree.Ident, kinds: Iterable[Kind], given: int | None) -> str:
+    kind, procedure = "exog" if {*kinds} == {Kind.EXOGENOUS} else "action", Kind.PROCEDURE in kinds
+    written = name.text + ("(…)" if given else "")
+    golc = f"`{kind} {written}`" + (f", or `proc {written}: …`" if procedure else "")
+    python = f"`def {name_text(name.text, name.span)}(…): …` under `@theory.{kind}`"
+    return "declare it: " + name.span.either(golc, python + (" or `@theory.proc`" if procedure else ""))
+
+
+def _as_word(name: tree.Ident) -> str | None:
     """What helps against a name that was probably to be a statement of one word."""
-    if name in ("pass", "noop", "nop", "nil", "nothing"):
-        return "a block that does nothing is `skip`"
-    return did_you_mean(name, STATEMENTS)
+    if name.text in ("pass", "noop", "nop", "nil", "nothing"):
+        return f"a block that does nothing is `{word('skip', name.span)}`"
+    meant = closest(name.text, STATEMENTS)
+    return None if meant is None else f"did you mean `{word(meant, name.span)}`?"
 
 
 def _is_formula(context: Context, value: Entry, kinds: Iterable[Kind]) -> bool:
@@ -182,16 +196,22 @@ def unknown_fluent(context: Context, scope: Scope, name: tree.Ident, given: int)
     message = f"unknown fluent `{name.text}`"
     similar = context.names.similar(name.text, [Kind.FLUENT], given)
     if similar is None:
-        context.missing(Code.UNKNOWN_NAME, message, name.span, f"declare it: `fluent {name.text}… = …`")
+        declared = f"declare it: `fluent {name.text}… = …`"
+        context.missing(Code.UNKNOWN_NAME, message, name.span, name.span.either(declared, _under_fluent(name)))
     else:
-        context.misspelt(Code.UNKNOWN_NAME, name.span, similar)
+        context.misspelt(Code.UNKNOWN_NAME, name, similar)
+
+
+def _under_fluent(name: tree.Ident) -> str:
+    return f"declare it: `def {name_text(name.text, name.span)}(…): …` under `@theory.fluent`"
 
 
 def _no_arguments(context: Context, node: tree.Apply, what: str, entry: Entry | None) -> None:
     labels = (Label(entry.span, "declared here"),) if entry else ()
     name = node.name.text
     message = f"`{name}` is {what} and takes no arguments"
-    context.error(Code.ARITY, message, node.name.span, "no arguments here", f"write `{name}` alone", labels)
+    help_ = f"write `{name_text(name, node.name.span)}` alone"
+    context.error(Code.ARITY, message, node.name.span, "no arguments here", help_, labels)
 
 
 def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> None:
@@ -204,43 +224,52 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     action = context.names.doings.get(name.text)
     if action is not None:
-        help_ = None if action.kind is Kind.PROCEDURE else f"`poss({name.span.text})` says whether it is possible"
+        asked = name.span.text if len(name.span.text) <= 40 else name.text
+        help_ = None if action.kind is Kind.PROCEDURE else f"`poss({asked})` says whether it is possible"
         message = f"`{name.text}` is {action.kind.phrase}, not a value"
         labels = (Label(action.span, "declared here"),)
         context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_, labels)
         return
     variables = () if given else tuple(scope.locals)
     similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
+    local = None if similar is None or similar.labels else scope.locals.get(similar.name)
     if similar is None and not given and name.text.lower() in ("true", "false", "none", "null"):
         _capital(context, name)
         return
     if similar is None and hint is BROKEN and not given:
         return  # probably a value of the type that is missing, which has been said
-    word = closest(name.text, ASKING if given else VALUES) if similar is None else None
+    meant = closest(name.text, ASKING if given else VALUES) if similar is None else None
     if name.text in ASKING:
         message, help_ = f"`{name.text}` is no value", f"write `{name.text}(…)`, with what it is asked of"
         context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_)
-    elif word is not None:
-        message, help_ = f"unknown word `{name.text}`", f"did you mean `{word}`?"
+    elif meant is not None:
+        message, help_ = f"unknown word `{name.text}`", f"did you mean `{word(meant, name.span)}`?"
         context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", help_)
     elif similar is None:
-        what, help_ = ("fluent", f"declare it: `fluent {name.text}(…) = …`") if given else ("name", _declare(name.text))
+        declared = f"declare it: `fluent {name.text}(…) = …`"
+        fluent = ("fluent", name.span.either(declared, _under_fluent(name)))
+        what, help_ = fluent if given else ("name", _declare(name))
         context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
     else:
-        context.misspelt(Code.UNKNOWN_NAME, name.span, similar)
+        context.misspelt(Code.UNKNOWN_NAME, name, similar, None if local is None else local.span)
 
 
 def _capital(context: Context, name: tree.Ident) -> None:
     """Python's ``True``, ``False`` and ``None``, and other languages' ``null``."""
-    ours = name.text.lower().replace("null", "none")
+    ours = word(name.text.lower().replace("null", "none"), name.span)
     fix = Fix(f"write `{ours}` for `{name.text}`", (Edit(name.span, ours),))
     small = ours == name.text.lower()
     message = f"`{ours}` is written in small letters" if small else f"“no value” is `{ours}`, not `{name.text}`"
     context.findings.error(Code.FOREIGN, message, name.span, "not declared", f"write `{ours}`", fix=fix)
 
 
-def _declare(name: str) -> str:
-    return f"declare it: `fluent {name} = …`, `const {name} = …`, or as a value of a type"
+def _declare(name: tree.Ident) -> str:
+    fluent, const = [name.span.either(f"{kind} {name.text} = …", _as_call(name, kind)) for kind in ("fluent", "const")]
+    return f"declare it: `{fluent}`, `{const}`, or as a value of a type"
+
+
+def _as_call(name: tree.Ident, kind: str) -> str:
+    return f'{name_text(name.text, name.span)} = theory.{kind}("{name.text}", …)'
 
 
 def _symbols_of(hint: Type | None, given: int) -> tuple[str, ...]:

@@ -11,7 +11,8 @@ from golc.theory.context import Context, Signature
 from golc.theory.elaborate_names import arity_fits, doing
 from golc.theory.elaborate_terms import fitting
 from golc.theory.expectations import broken
-from golc.theory.fitting import BROKEN, describe, includes, overlap
+from golc.theory.fitting import BROKEN, includes, overlap
+from golc.theory.forms import describe
 from golc.theory.relations import equality
 from golc.theory.scope import Kind, Local, Scope
 from golc.theory.terms import Membership, Operation, Operator, Term, Variable
@@ -74,7 +75,8 @@ def _same(context: Context, given: Variable, other: Variable, arg: tree.Ident) -
     """The demand that an argument is what its name stands for already; if it is that very argument, that it is of the
     type that is known of it."""
     if not overlap(given.type, other.type):
-        message = f"`{arg.text}` is of type {describe(other.type)}, and here of type {describe(given.type)}"
+        there, here = describe(other.type, arg.span), describe(given.type, arg.span)
+        message = f"`{arg.text}` is of type {there}, and here of type {here}"
         context.error(Code.TYPE_MISMATCH, message, arg.span, "their types have nothing in common")
         return [broken(arg.span)]
     if given.level != other.level:

@@ -8,11 +8,12 @@ from dataclasses import dataclass, field
 from golc.diagnostics import Code, Label, Span
 from golc.syntax import tree
 from golc.theory.context import Context
-from golc.theory.elaborate_names import arity_fits, doing
+from golc.theory.elaborate_names import TERMS, arity_fits, doing
 from golc.theory.elaborate_terms import formula
 from golc.theory.elaborate_values import argument, evaluated, situational
-from golc.theory.expectations import fits
+from golc.theory.expectations import broken, fits
 from golc.theory.fitting import BROKEN
+from golc.theory.forms import word
 from golc.theory.scenarios import (
     Assignment,
     Assumption,
@@ -26,6 +27,7 @@ from golc.theory.scenarios import (
     Scenario,
 )
 from golc.theory.scope import Entry, Kind, Scope
+from golc.theory.suggest import distance
 from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, Operation, Operator, PossTerm, Term, subterms
 from golc.theory.types import INT, Value, show_call
 
@@ -95,7 +97,8 @@ class _Scenario:
         if entry is not None and entry.kind is Kind.PROCEDURE and not entry.arity:
             return GroundCall("control", (), span=self.node.name.span)
         message = f"scenario `{self.node.name.text}` does not say what it runs, and there is no procedure `control`"
-        self.context.error(Code.MISPLACED_CLAUSE, message, self.node.name.span, help="add a line `run …`")
+        help_ = f"add a line `{self.node.name.span.either('run …', 'run(…)')}`"
+        self.context.error(Code.MISPLACED_CLAUSE, message, self.node.name.span, help=help_)
         return None
 
     def item(self, item: tree.ScenarioItem) -> None:
@@ -114,6 +117,11 @@ class _Scenario:
             case tree.ExpectActions(actions=actions):
                 calls = [self.call(action, (Kind.ACTION,), "a primitive action") for action in actions]
                 self.expectations.append(ExpectActions(tuple([call for call in calls if call]), span=item.span))
+            case tree.ExpectFormula(condition=tree.ListLiteral() as actions):
+                golc = "a list of actions stands behind the word `actions`: `expect actions […]`"
+                help_ = actions.span.either(golc, "a list of actions has its name: `expect(actions=[…])`")
+                self.context.error(Code.TYPE_MISMATCH, "a list is no formula", actions.span, "not a formula", help_)
+                self.good = False
             case tree.ExpectFormula(condition=condition):
                 self.expectations.append(ExpectFormula(self.formula(condition, "`expect`"), span=item.span))
 
@@ -176,8 +184,19 @@ class _Scenario:
         if item.argument is not None and item.trigger == "after":
             trigger = self.number(item.argument)
         elif item.argument is not None:
-            trigger = self.formula(item.argument, "`when`")
+            trigger = self.when(item.argument)
         self.events.append(Events(tuple([call for call in calls if call]), trigger, span=item.span))
+
+    def when(self, node: tree.Expr) -> Term:
+        """The condition of an event; a name that is like nothing but `waiting` is that word misspelt."""
+        if isinstance(node, tree.Apply) and not node.args and distance(node.name.text, "waiting", 2) < 2:
+            name, names = node.name, self.context.names
+            if name.text not in names.values.entries and names.similar(name.text, TERMS, 0) is None:
+                message, help_ = f"unknown word `{name.text}`", f"did you mean `{word('waiting', name.span)}`?"
+                self.context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", help_)
+                self.good = False
+                return broken(node.span)
+        return self.formula(node, "`when`")
 
     def count(self, item: tree.ExpectCount) -> None:
         count = self.number(item.count)

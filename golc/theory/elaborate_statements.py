@@ -77,7 +77,9 @@ def statement(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
         case tree.Wait():
             return typed.Wait(span=span)
         case tree.WaitUntil(condition=condition):
-            return typed.WaitUntil(formula(context, scope, condition, "`wait until`"), span=span)
+            return typed.WaitUntil(
+                formula(context, scope, condition, span.either("`wait until`", "`wait(until=…)`")), span=span
+            )
         case tree.Say(message=message):
             return typed.Say(spoken(context, scope, message), span=span)
         case tree.Abort(message=message):
@@ -96,7 +98,8 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
     span = node.span
     match node:
         case tree.Star(limit=limit, body=body):
-            most = None if limit is None else _count(context, scope, limit, "`star at most`")
+            what = span.either("`star at most`", "`star(at_most=…)`")
+            most = None if limit is None else _count(context, scope, limit, what)
             return typed.Star(most, block(context, scope, body), span=span)
         case tree.For():
             inner, binders = bind(context, scope, node.binders)
@@ -109,7 +112,8 @@ def _repeated(context: Context, scope: Scope, node: tree.Statement) -> typed.Sta
             return typed.Guard(guard, block(context, scope, body), span=span)
         case tree.Search(mode=mode, at_most=at_most, within=within, body=body):
             strategy = typed.Strategy(mode or "first")
-            steps = None if at_most is None else _count(context, scope, at_most, "`at most … steps`")
+            what = span.either("`at most … steps`", "`search(at_most=…)`")
+            steps = None if at_most is None else _count(context, scope, at_most, what)
             seconds = None if within is None else _seconds(context, scope, within)
             return typed.Search(strategy, steps, seconds, block(context, scope, body), span=span)
         case tree.Within(duration=duration, body=body):
@@ -164,7 +168,8 @@ def _call(context: Context, scope: Scope, node: tree.Apply) -> typed.Statement:
     if entry.kind is Kind.EXOGENOUS:
         labels = (Label(entry.span, "declared here"),)
         message = f"`{entry.name}` is an exogenous action: it happens, a program cannot do it"
-        help_ = "wait for it, for example with `wait until`"
+        waiting = node.span.either("wait until", "wait(until=…)")
+        help_ = f"wait for it, for example with `{waiting}`"
         context.error(Code.MISUSED_NAME, message, node.name.span, "not an action of the agent", help_, labels)
     args = arguments(context, scope, node, signature)
     if args is None:

@@ -30,6 +30,7 @@ from golc.theory.elaborate_names import arity_fits, doing, is_misspelt_type, is_
 from golc.theory.elaborate_types import elaborate_type, finite_type, named_type, unknown_type
 from golc.theory.expectations import as_number, broken, fits, mismatch
 from golc.theory.fitting import BROKEN, collection, is_undetermined
+from golc.theory.forms import sign
 from golc.theory.relations import (
     conditional,
     equality,
@@ -225,7 +226,8 @@ def _epistemic(context: Context, scope: Scope, node: tree.Epistemic) -> Term:
 def _before(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term:
     body = term(context, replace(scope, before=False), node)
     if not scope.before:
-        help_ = "it stands in `prune … after … when`, but not inside another one or inside `knows` and the like"
+        where = span.either("`prune … after … when`", "the `when` of an `after(…)` under `@theory.prune`")
+        help_ = f"it stands in {where}, but not inside another one or inside `knows` and the like"
         context.error(Code.MISPLACED_CLAUSE, "`before(…)` has no meaning here", span, "before what?", help_)
         return broken(span)
     return body if body.type is BROKEN else Before(body, type=body.type, span=span)
@@ -237,7 +239,7 @@ def _before(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term
 def _unary(context: Context, scope: Scope, node: tree.Unary) -> Term:
     if node.op == "-":
         return numeric(context, Operator.NEGATE, [number(context, scope, node.operand, "`-`")], node.span)
-    operand = formula(context, scope, node.operand, "`not`")
+    operand = formula(context, scope, node.operand, f"`{sign('not', node.span)}`")
     return Operation(Operator.NOT, (operand,), type=BOOL, span=node.span)
 
 
@@ -259,12 +261,12 @@ def _binary(context: Context, scope: Scope, node: tree.Binary, hint: Type | None
 
 
 def _junction(context: Context, scope: Scope, left: Term, group: list[tree.Binary]) -> Term:
-    op = group[0].op
-    first = left if fits(context, left, BOOL, f"`{op}`") else broken(left.span)
+    span, what = group[-1].span, f"`{sign(group[0].op, group[-1].span)}`"
+    first = left if fits(context, left, BOOL, what) else broken(left.span)
     args = [first]
     for binary in group:
-        args.append(formula(context, scope, cast(tree.Expr, binary.right), f"`{op}`"))
-    return Operation(LOGIC[op], tuple(args), type=BOOL, span=group[-1].span)
+        args.append(formula(context, scope, cast(tree.Expr, binary.right), what))
+    return Operation(LOGIC[group[0].op], tuple(args), type=BOOL, span=span)
 
 
 def _infix(context: Context, scope: Scope, node: tree.Binary, left: Term, hint: Type | None) -> Term:
@@ -357,9 +359,14 @@ def _display(
 
 def _comprehension(context: Context, scope: Scope, node: tree.Comprehension, hint: Type | None) -> Term:
     inner, binders = bind(context, scope, node.binders)
-    where = None if node.where is None else formula(context, inner, node.where, "`where`")
+    where = _where(context, inner, node)
     element = term(context, inner, node.element, of_elements(hint))
     return comprehension(node.kind, binders, where, element, hint, node.span)
+
+
+def _where(context: Context, scope: Scope, node: tree.Comprehension | tree.Quantifier) -> Term | None:
+    """The condition on the variables of a term, which Python writes behind an ``if``."""
+    return None if node.where is None else formula(context, scope, node.where, node.span.either("`where`", "`if`"))
 
 
 def _text(context: Context, scope: Scope, node: tree.Message) -> Term:
@@ -378,9 +385,9 @@ def message_parts(context: Context, scope: Scope, node: tree.Message) -> tuple[s
 
 def _quantifier(context: Context, scope: Scope, node: tree.Quantifier) -> Term:
     inner, binders = bind(context, scope, node.binders)
-    where = None if node.where is None else formula(context, inner, node.where, "`where`")
+    where = _where(context, inner, node)
     logical = node.kind in ("exists", "forall", "count")
-    body = (formula if logical else number)(context, inner, node.body, f"`{node.kind}`")
+    body = (formula if logical else number)(context, inner, node.body, f"`{sign(node.kind, node.span)}`")
     if BROKEN in [body.type, *[binder.variable.type for binder in binders]]:
         return broken(node.span)
     type_ = BOOL if node.kind in ("exists", "forall") else INT if logical else numeric_type([body])

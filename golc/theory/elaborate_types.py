@@ -9,7 +9,8 @@ from golc.diagnostics import Code, Span
 from golc.syntax import tree
 from golc.theory.context import Context
 from golc.theory.declare import BUILTIN_TYPES
-from golc.theory.fitting import BROKEN, describe, members, size
+from golc.theory.fitting import BROKEN, members, size
+from golc.theory.forms import describe, type_text
 from golc.theory.scope import Entry, Kind
 from golc.theory.theory import Parameter
 from golc.theory.types import INT, REAL, Collection, Enumeration, Interval, Optional, Primitive, Type, Value
@@ -44,14 +45,19 @@ def finite_type(context: Context, node: tree.Type, what: str) -> Type:
         return type_
     if not type_.finite:
         number = not type_.kinds.isdisjoint(REAL.kinds)
-        help_ = "give a range, for example `1..10`, or a declared type" if number else None
-        message = f"{what} has to be of a type that can be enumerated, and `{type_}` cannot"
+        help_ = give_a_range(node.span) if number else None
+        message = f"{what} has to be of a type that can be enumerated, and `{type_text(type_, node.span)}` cannot"
         context.error(Code.BAD_TYPE, message, node.span, "has no end" if number else "cannot be enumerated", help_)
         return BROKEN
     if size(type_) > LARGEST:
         context.error(Code.BAD_TYPE, f"{what} has more than {LARGEST} values", node.span, "too many to enumerate")
         return BROKEN
     return type_
+
+
+def give_a_range(place: Span) -> str:
+    """What helps where a type has to be enumerable."""
+    return f"give a range, for example `{place.either('1..10', 'interval(1, 10)')}`, or a declared type"
 
 
 def declared_type(context: Context, entry: Entry) -> Type | None:
@@ -87,9 +93,10 @@ def unknown_type(context: Context, name: tree.Ident) -> None:
     message = f"unknown type `{name.text}`"
     similar = context.names.similar(name.text, [Kind.TYPE], variables=BUILTIN_TYPES)
     if similar is None:
-        context.missing(Code.UNKNOWN_TYPE, message, name.span, f"declare it: `type {name.text} = …`")
+        declared = name.span.either(f"type {name.text} = …", f'{name.text} = theory.type("{name.text}", …)')
+        context.missing(Code.UNKNOWN_TYPE, message, name.span, f"declare it: `{declared}`")
     else:
-        context.misspelt(Code.UNKNOWN_TYPE, name.span, similar)
+        context.misspelt(Code.UNKNOWN_TYPE, name, similar)
 
 
 def home(context: Context, entry: Entry) -> Type:
@@ -175,5 +182,5 @@ def _joins_union(context: Context, type_: Type, span: Span) -> bool:
     what = (
         "has too many values" if type_.finite and size(type_) > LARGEST else "is neither an interval nor an enumeration"
     )
-    context.error(Code.BAD_TYPE, f"{describe(type_)} {what}, so it cannot be part of a union", span, "not a part")
+    context.error(Code.BAD_TYPE, f"{describe(type_, span)} {what}, so it cannot be part of a union", span, "not a part")
     return False

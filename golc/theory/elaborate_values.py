@@ -15,7 +15,8 @@ from golc.theory.elaborate_collections import determined
 from golc.theory.elaborate_terms import term
 from golc.theory.elaborate_types import elaborate_type, parameters
 from golc.theory.expectations import fits
-from golc.theory.fitting import BROKEN, describe, may_be, size
+from golc.theory.fitting import BROKEN, may_be, size
+from golc.theory.forms import describe, typed_declaration, word
 from golc.theory.python_text import misfit
 from golc.theory.scope import Entry, Kind, Scope
 from golc.theory.terms import DefinedTerm, Epistemic, FluentTerm, Literal, PossTerm, Term, subterms
@@ -127,7 +128,8 @@ def constant(context: Context, entry: Entry) -> Constant | None:
         return None
     if not may_be(given.type, written.type):
         message = (
-            f"`{entry.name}` is {describe(written.type)} in the file, but {describe(given.type)} on the command line"
+            f"`{entry.name}` is {describe(written.type, given.span)} in the file, "
+            f"but {describe(given.type, given.span)} on the command line"
         )
         labels = (Label(entry.span, "declared here"),)
         context.error(Code.TYPE_MISMATCH, message, given.span, "of another type", labels=labels)
@@ -187,10 +189,11 @@ def _static_body(context: Context, signature: Signature, node: tree.Static, expr
     scope = parameter_scope(context, signature.parameters, node.parameters)
     what = f"static `{signature.entry.name}`"
     found = term(context, scope, expression, signature.type)
-    help_ = f"write its type: `static {node.name.text}: {found.type} = …`"
     if node.type is None and found.type is not BROKEN and found.type.kinds.isdisjoint(BOOL.kinds):
-        message = f"{what} has no type, which makes it a relation (`bool`), but its value is {describe(found.type)}"
-        context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {describe(found.type)}", help_)
+        type_ = describe(found.type, found.span)
+        message = f"{what} has no type, which makes it a relation (`bool`), but its value is {type_}"
+        help_ = f"write its type: `{typed_declaration('static', node.name, found.type)}`"
+        context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {type_}", help_)
         return None
     if not fits(context, found, signature.type, what) or not closed_term(context, found, what):
         return None
@@ -220,7 +223,8 @@ def _table(context: Context, signature: Signature, node: tree.Table) -> Mapping[
     name = signature.entry.name
     if not types:
         message = f"`{name}` has no parameters, so that it cannot be a table"
-        context.error(Code.TABLE, message, node.span, "a table needs keys", f"write `static {name}(x: …): … = …`")
+        written = node.span.either(f"static {name}(x: …): … = …", f"def {name}(x: …) -> …: …")
+        context.error(Code.TABLE, message, node.span, "a table needs keys", f"write `{written}`")
         return None
     table: dict[tuple[Value, ...], Value] = {}
     places: dict[tuple[Value, ...], tree.TableEntry] = {}
@@ -233,7 +237,7 @@ def _table(context: Context, signature: Signature, node: tree.Table) -> Mapping[
             labels = (Label(places[key].span, "first here"),)
             context.error(
                 Code.TABLE,
-                f"the table of `{name}` has two values for {_shown_key(key)}",
+                f"the table of `{name}` has two values for {_shown_key(key, entry.span)}",
                 entry.span,
                 "the same key again",
                 labels=labels,
@@ -265,7 +269,7 @@ def _covers(context: Context, signature: Signature, node: tree.Table, table: Map
         needed *= size(parameter.type)
     if needed == len(table):
         return True
-    first = [_shown_key(key) for key in itertools.islice(_missing(signature, table), 3)]
+    first = [_shown_key(key, node.span) for key in itertools.islice(_missing(signature, table), 3)]
     more = needed - len(table) - len(first)
     missing = ", ".join(first) + (f" and {more} more" if more else "")
     message = f"the table of `{signature.entry.name}` has no value for {missing}"
@@ -278,8 +282,8 @@ def _missing(signature: Signature, table: Mapping[tuple[Value, ...], Value]) -> 
     return (key for key in every if key not in table)
 
 
-def _shown_key(key: tuple[Value, ...]) -> str:
-    return f"`{show(key[0])}`" if len(key) == 1 else f"`{show_call('', key)}`"
+def _shown_key(key: tuple[Value, ...], place: Span) -> str:
+    return f"`{word(show(key[0]), place)}`" if len(key) == 1 else f"`{show_call('', key)}`"
 
 
 # ---- names of constants given on the command line
@@ -300,6 +304,6 @@ def check_overrides(context: Context) -> None:
             f"`{name}` {what}, so that `-D` cannot replace it",
             span,
             "there is no such const",
-            similar.help if similar else None,
+            similar.help(span) if similar else None,
             similar.labels if similar else (),
         )

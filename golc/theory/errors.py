@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, Label, ProgramError, Severity, Span, counted
-from golc.theory.fitting import collection, describe
+from golc.theory.fitting import collection
+from golc.theory.forms import describe, word
 from golc.theory.order import elements
 from golc.theory.types import Number, Type, Value, show
 
@@ -12,24 +13,24 @@ def argument_outside(span: Span, what: str, value: Value, type_: Type) -> Progra
     """An argument is outside its parameter's type; ``what`` names what it is an argument of."""
     if value is None:
         return nothing(span, f"an argument of `{what}`")
-    message = f"argument {show(value)} of `{what}` {_outside(value, type_)}"
+    message = f"argument {show(value)} of `{what}` {_outside(value, type_, span)}"
     return ProgramError(Diagnostic(Code.ARGUMENT_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
 
 
 def value_outside(span: Span, what: str, value: Value, type_: Type) -> ProgramError:
     """A fluent or a static function would have a value outside its type."""
-    message = f"`{what}` would be {show(value)}, which {_outside(value, type_)}"
+    message = f"`{what}` would be {show(value)}, which {_outside(value, type_, span)}"
     return ProgramError(Diagnostic(Code.VALUE_OUTSIDE_TYPE, message, span, marker=f"{show(value)} here"))
 
 
-def _outside(value: Value, type_: Type) -> str:
+def _outside(value: Value, type_: Type, place: Span) -> str:
     """Of which type a value is not; of a set or list, which element is wrong."""
     whole, element = collection(type_), value
     while whole is not None and isinstance(element, frozenset if whole.kind == "set" else tuple):
         type_ = whole.element
         element = next(part for part in elements(element, None) if part not in type_)
         whole = collection(type_)
-    outside = f"is outside {describe(type_)}"
+    outside = f"is outside {describe(type_, place)}"
     return outside if element is value else f"has the element {show(element)}, which {outside}"
 
 
@@ -41,15 +42,10 @@ def negative_cost(span: Span, call: str, value: Number) -> ProgramError:
 
 def nothing(span: Span, where: str) -> ProgramError:
     """``none`` where a value is needed."""
-    return ProgramError(
-        Diagnostic(
-            Code.NOTHING,
-            f"{where} is `none`, where a value is needed",
-            span,
-            marker="`none` here",
-            help="ask `… != none and …` first",
-        )
-    )
+    none = word("none", span)
+    message = f"{where} is `{none}`, where a value is needed"
+    help_ = f"ask `{span.either('… != none and …', '… != None')}` first"
+    return ProgramError(Diagnostic(Code.NOTHING, message, span, marker=f"`{none}` here", help=help_))
 
 
 def division_by_zero(span: Span) -> ProgramError:
@@ -59,8 +55,8 @@ def division_by_zero(span: Span) -> ProgramError:
 
 def empty_extremum(span: Span, kind: str) -> ProgramError:
     """``min`` or ``max`` over no binding at all."""
-    message = f"`{kind}` over nothing has no value"
-    return ProgramError(Diagnostic(Code.EMPTY_EXTREMUM, message, span, marker="no binding satisfies its `where`"))
+    message, where = f"`{kind}` over nothing has no value", span.either("where", "if")
+    return ProgramError(Diagnostic(Code.EMPTY_EXTREMUM, message, span, marker=f"no binding satisfies its `{where}`"))
 
 
 def empty_list(span: Span, what: str) -> ProgramError:

@@ -5,7 +5,8 @@ from __future__ import annotations
 from golc.diagnostics import Code, Span
 from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context
-from golc.theory.fitting import BROKEN, collection, describe, may_be, overlap, strip_optional
+from golc.theory.fitting import BROKEN, collection, may_be, overlap, strip_optional
+from golc.theory.forms import describe, type_text, word
 from golc.theory.terms import (
     Comprehension,
     DefinedTerm,
@@ -19,7 +20,7 @@ from golc.theory.terms import (
     Term,
     Variable,
 )
-from golc.theory.types import BOOL, NONE, REAL, STRING, Type, show
+from golc.theory.types import BOOL, NONE, REAL, STRING, Optional, Type, show
 
 AGGREGATES = ("`sum`", "`min`", "`max`")
 
@@ -42,12 +43,13 @@ def fits(context: Context, found: Term, needed: Type, what: str, declared: Span 
             place = place if wanted_inside == wanted else f"an element of {place}"
             stack.extend([(each, wanted_inside, place) for each in reversed(inside)])
         elif not may_be(part.type, wanted):
-            mismatch(context, part, describe(wanted), place, cure(part, wanted), declared)
+            mismatch(context, part, describe(wanted, part.span), place, cure(part, wanted), declared)
             good = False
         elif isinstance(part, Literal) and part.type is not BROKEN and part.value not in wanted:
             value = "" if shown(part) == show(part.value) else f" is {show(part.value)}, which"
-            message = f"`{shown(part)}`{value} is outside {describe(wanted)}"
-            context.error(Code.OUTSIDE_TYPE, message, part.span, f"{place} needs {describe(wanted)}")
+            type_ = describe(wanted, part.span)
+            message = f"`{shown(part)}`{value} is outside {type_}"
+            context.error(Code.OUTSIDE_TYPE, message, part.span, f"{place} needs {type_}")
             good = False
         else:
             context.clear(suspects(context, part, declared=declared))
@@ -99,9 +101,11 @@ def as_number(context: Context, found: Term, what: str) -> Term:
         return found
     help_ = cure(found, REAL)
     if found.type == STRING and what == "`+`":
-        help_ = '`"{…}{…}"` puts texts together'
-    elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES:
-        help_ = _parentheses(what.strip("`"))
+        help_ = f'`{found.span.either("", "f")}"{{…}}{{…}}"` puts texts together'
+    elif found.type == BOOL and what == "`sum`" and found.span.source.python:
+        help_ = f"write `count({shown(found)} for …)` for how often it is true"
+    elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES and not found.span.source.python:
+        help_ = parentheses(what.strip("`"))
     mismatch(context, found, "a number", what, help_)
     return broken(found.span)
 
@@ -112,10 +116,11 @@ def mismatch(
     """Report a term of the wrong type."""
     blamed = suspects(context, found, declared=declared)
     if found.type == NONE:
-        message = f"{what} needs {needed}, and `none` is no such value"
-        context.error(Code.TYPE_MISMATCH, message, found.span, "never `none`", help, suspects=blamed)
+        none = word("none", found.span)
+        message = f"{what} needs {needed}, and `{none}` is no such value"
+        context.error(Code.TYPE_MISMATCH, message, found.span, f"never `{none}`", help, suspects=blamed)
     else:
-        type_ = f"of type {describe(found.type)}"
+        type_ = f"of type {describe(found.type, found.span)}"
         message = f"`{shown(found)}` is {type_}, but {what} needs {needed}"
         context.error(Code.TYPE_MISMATCH, message, found.span, f"this is {type_}", help, suspects=blamed)
 
@@ -123,17 +128,21 @@ def mismatch(
 def cure(found: Term, needed: Type) -> str | None:
     """What helps against a term of the wrong type, if that can be seen."""
     have, want = collection(found.type), collection(needed)
-    python = found.span.source.python
+    place = found.span
     if isinstance(found, Literal) and needed == BOOL:
-        return "a truth value is `True` or `False`" if python else "a truth value is `true` or `false`"
+        return f"a truth value is `{word('true', place)}` or `{word('false', place)}`"
     if isinstance(found, Literal) and found.value is None:
-        return f"the type `{needed}?` has the value `none`, too"
-    if needed == BOOL and isinstance(found, Quantified) and not python:
-        return _parentheses(found.kind)
+        return f"the type `{type_text(Optional(needed), place)}` has the value `{word('none', place)}`, too"
+    if needed == BOOL and isinstance(found, Quantified) and not place.source.python:
+        return parentheses(found.kind)
+    if needed == BOOL and have:
+        empty = "[]" if have.kind == "list" else place.either("{}", "set()")
+        text = shown(found)
+        return f"compare it: `{text} != {empty}`; ask: `x in {text}`; `+` joins it with another"
     if needed == BOOL:
-        return f"compare it: `{shown(found)} {'==' if python else '='} …`"
+        return f"compare it: `{shown(found)} {place.either('=', '==')} …`"
     if have and want and have.kind != want.kind and not have.element.kinds:
-        return f"the empty {want.kind} is `{'{}' if want.kind == 'set' else '[]'}`"
+        return f"the empty {want.kind} is `{place.either('{}', 'set()') if want.kind == 'set' else '[]'}`"
     if have and want and have.kind != want.kind:
         brackets = "{x for x in …}" if want.kind == "set" else "[x for x in …]"
         return f"`{brackets}` makes a {want.kind} of a {have.kind}"
@@ -148,14 +157,17 @@ def cure(found: Term, needed: Type) -> str | None:
 
 
 def _without_quotes(found: Term, needed: Type) -> str:
-    python = found.span.source.python
-    if python and isinstance(found, Literal) and str(needed).isidentifier():
-        return f"a string of Python is no symbol: write `{needed}.{found.value}`"
-    return "values of an enumeration stand without quotes"
+    if not found.span.source.python:
+        return "values of an enumeration stand without quotes"
+    if not isinstance(found, Literal):
+        return "a string of Python is no symbol"
+    symbol = f"{needed}.{found.value}" if str(needed).isidentifier() else f'symbols("{found.value}")'
+    return f"a string of Python is no symbol: write `{symbol}`"
 
 
-def _parentheses(kind: str) -> str:
-    return f"write `({kind} …) = …`: without parentheses `{kind}` takes in everything to its right"
+def parentheses(kind: str, op: str = "=") -> str:
+    """What helps against an aggregate that takes in the comparison it was to be a part of."""
+    return f"write `({kind} …) {op} …`: without parentheses `{kind}` takes in everything to its right"
 
 
 def shown(found: Term) -> str:
@@ -167,7 +179,8 @@ def shown(found: Term) -> str:
 def typed(found: Term) -> str:
     """A term with its type, for a message."""
     type_ = strip_optional(found.type)
-    return f"`{shown(found)}`" if found.type == NONE else f"`{shown(found)}`, which is of type `{type_}`,"
+    of_type = f", which is of type `{type_text(type_, found.span)}`,"
+    return f"`{shown(found)}`" + ("" if found.type == NONE else of_type)
 
 
 def both(left: Term, right: Term) -> str:

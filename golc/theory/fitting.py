@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from golc.theory.types import BOOL, INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value
+from golc.theory.types import INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value
 
 
 @dataclass(frozen=True)
@@ -175,23 +175,3 @@ def members(type_: Type) -> tuple[tuple[Value, str], ...]:
             return pairs
         case _:
             return tuple([(value, "") for value in type_.values])
-
-
-def describe(type_: Type) -> str:
-    """A type for a message: what it is called and, if the name hides them, its values."""
-    match type_:
-        case Optional(base=base):
-            return "`none`" if not base.kinds else f"{describe(base)} or `none`"
-        case Interval(low=low, high=high, name=str(name)):
-            return f"`{name}` ({low}..{high})"
-        case Enumeration(name=str(name)) as enumeration:
-            return f"`{name}` ({_some(enumeration)})"
-        case _ if type_ == BOOL:
-            return "`bool`"
-        case _:
-            return f"`{type_}`"
-
-
-def _some(enumeration: Enumeration) -> str:
-    shown = [str(value) for value in enumeration.values[:5]]
-    return ", ".join(shown + ["…"] * (len(enumeration.values) > 5))

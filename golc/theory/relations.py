@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import cast
 
@@ -9,13 +10,12 @@ from golc.diagnostics import Code, Span
 from golc.theory.closed import NoValueError, arithmetic
 from golc.theory.context import Context
 from golc.theory.elaborate_types import home
-from golc.theory.expectations import both, broken, cure, mismatch, shown, suspects, typed
+from golc.theory.expectations import both, broken, cure, mismatch, parentheses, shown, suspects, typed
 from golc.theory.fitting import (
     BROKEN,
     NOTHING,
     Either,
     collection,
-    describe,
     includes,
     join,
     may_be,
@@ -23,6 +23,7 @@ from golc.theory.fitting import (
     size,
     strip_optional,
 )
+from golc.theory.forms import describe, word
 from golc.theory.terms import Display, Literal, Membership, Operation, Operator, Term
 from golc.theory.types import BOOL, INT, REAL, Collection, Enumeration, Interval, Optional, Type, Value, show
 
@@ -65,7 +66,13 @@ def equality(context: Context, op: Operator, left: Term, right: Term, span: Span
     """``=`` or ``!=`` of terms that have some kind of value in common."""
     if not _comparable(left, right):
         message = f"{both(left, right)} can never be equal"
-        help_ = _asks_membership(left, right) or cure(right, left.type) or _values(left, right) or _values(right, left)
+        help_ = (
+            _taken_in(op, left, span)
+            or _asks_membership(left, right)
+            or cure(right, left.type)
+            or _values(left, right)
+            or _values(right, left)
+        )
         blamed = suspects(context, left, right)
         context.error(Code.TYPE_MISMATCH, message, span, "their types have nothing in common", help_, suspects=blamed)
         return broken(span)
@@ -77,6 +84,14 @@ def _clear(context: Context, left: Term, right: Term) -> None:
     """Two terms that go together speak for each other's declarations."""
     if BROKEN not in (left.type, right.type):
         context.clear(suspects(context, left, right))
+
+
+def _taken_in(op: Operator, left: Term, span: Span) -> str | None:
+    """What helps where the formula that is counted is compared, not their number."""
+    text = span.source.text
+    before = text[text.rfind("\n", 0, span.start) + 1 : span.start]
+    counted = left.type == BOOL and re.search(r"\bcount\b[^.]*\.[ \t]*$", before)
+    return parentheses("count", op.value) if counted else None
 
 
 def _asks_membership(left: Term, right: Term) -> str | None:
@@ -92,7 +107,7 @@ def _values(found: Term, constant: Term) -> str | None:
     type_ = strip_optional(found.type)
     if isinstance(found, Literal) or not isinstance(constant, Literal) or not isinstance(type_, Enumeration):
         return None
-    values = [show(value) for value in type_.values[:6]]
+    values = [word(show(value), found.span) for value in type_.values[:6]]
     return f"`{shown(found)}` can be {', '.join(values)}{', …' if len(type_.values) > 6 else ''}"
 
 
@@ -114,7 +129,7 @@ def ordering(context: Context, op: Operator, left: Term, right: Term, span: Span
     if order is None:
         message = f"{both(left, right)} have no order"
         marker, blamed = "numbers, or values of one enumeration, have an order", suspects(context, left, right)
-        context.error(Code.TYPE_MISMATCH, message, span, marker, suspects=blamed)
+        context.error(Code.TYPE_MISMATCH, message, span, marker, _taken_in(op, left, span), suspects=blamed)
         return broken(span)
     _clear(context, left, right)
     return Operation(op, (left, right), type=BOOL, span=span, order=order)
@@ -140,14 +155,14 @@ def within_type(context: Context, element: Term, within: Type, span: Span) -> Te
     if within is BROKEN or element.type is BROKEN:
         return broken(span)
     if _kinds(element).isdisjoint(within.kinds):
-        message = f"{typed(element)} can never be in {describe(within)}"
+        message = f"{typed(element)} can never be in {describe(within, span)}"
         context.error(Code.TYPE_MISMATCH, message, span, "always false", suspects=suspects(context, element))
         return broken(span)
     context.clear(suspects(context, element))
     if not may_be(element.type, within):
         name = shown(element)
         help_ = f"write `{within.low} <= {name} and {name} <= {within.high}`" if isinstance(within, Interval) else None
-        message = f"`{name}` is of type {describe(element.type)}, and {describe(within)} has only integers"
+        message = f"`{name}` is of type {describe(element.type, span)}, and {describe(within, span)} has only integers"
         context.error(Code.TYPE_MISMATCH, message, span, "whole or not?", help_)
         return broken(span)
     return Membership(element, within, type=BOOL, span=span)
@@ -163,7 +178,7 @@ def within_collection(context: Context, element: Term, within: Term, span: Span)
         return broken(span)
     never = _kinds(element).isdisjoint(whole.element.kinds) or not overlap(element.type, whole.element)
     if never and whole.element != NOTHING:
-        message = f"{typed(element)} can never be in `{shown(within)}`, which is of type {describe(whole)}"
+        message = f"{typed(element)} can never be in `{shown(within)}`, which is of type {describe(whole, span)}"
         context.error(Code.TYPE_MISMATCH, message, span, "always false", cure(element, whole.element))
         return broken(span)
     return Operation(Operator.ELEMENT, (element, within), type=BOOL, span=span)
@@ -175,7 +190,8 @@ def one_of(context: Context, element: Term, choices: list[Term], span: Span, pla
         return broken(span)
     strange = [choice for choice in choices if not _comparable(element, choice)]
     for choice in strange:
-        mismatch(context, choice, describe(element.type), f"a value of `{shown(element)}`", cure(choice, element.type))
+        needed = describe(element.type, choice.span)
+        mismatch(context, choice, needed, f"a value of `{shown(element)}`", cure(choice, element.type))
     if strange:
         return broken(span)
     pairs = [_member(choice) for choice in choices]

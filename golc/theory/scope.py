@@ -8,6 +8,7 @@ from enum import Enum
 
 from golc.diagnostics import Label, Span
 from golc.syntax import tree
+from golc.theory.forms import name_text
 from golc.theory.suggest import closest
 from golc.theory.terms import Variable
 from golc.theory.types import Type
@@ -69,9 +70,9 @@ class Suggestion:
     kind: str
     labels: tuple[Label, ...]
 
-    @property
-    def help(self) -> str:
-        return f"did you mean `{self.name}`?"
+    def help(self, place: Span) -> str:
+        """The question for somebody who has written the unknown name at a place."""
+        return f"did you mean `{name_text(self.name, place)}`?"
 
 
 @dataclass

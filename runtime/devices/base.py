@@ -93,7 +93,7 @@ class Router:
                 return device
         span = self._theory.actions[action].span
         message = f"no device performs `{show_call(action, args)}`"
-        raise UserError(Diagnostic(Code.NO_DEVICE, message, span, help="bind it in a `device` block"))
+        raise UserError(Diagnostic(Code.NO_DEVICE, message, span, help="bind it in a device"))
 
 
 class Bindings:

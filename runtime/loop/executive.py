@@ -327,9 +327,10 @@ class Executive(Intake):
             return None
         own, events = 0, []
         for item in reversed(self.history):
-            own += isinstance(item, Act)
-            if own > branch.actions:
-                break
             if not isinstance(item, Act):
                 events.append(self.dynamics.call(item.action, item.args))
+                continue
+            own += 1
+            if own >= branch.actions:  # the first action of the plan, or the last one before it
+                break
         return f"exogenous actions since the plan was made: {', '.join(reversed(events))}" if events else None

@@ -176,6 +176,17 @@ def test_a_plan_is_a_numbered_tree(evil: golc.Theory) -> None:
     assert '<ol start="3"><li>do_it(2)' in evil.plan()._repr_html_()
 
 
+def test_each_plan_of_a_search_shows_itself_with_its_cost(tmp_path: Path) -> None:
+    (tmp_path / "paid.gl").write_text(
+        "domain paid\naction a:\n    cost 2\naction b\n"
+        "proc control:\n    choose:\n        a\n        a\n    or:\n        b\n        a\n"
+    )
+    theory = golc.load(tmp_path / "paid.gl")
+
+    assert [texts(plan._repr_html_()) for plan in theory.planning(every=True)] == [["\ta", "\ta"], ["\tb", "\ta"]]
+    assert texts(theory.plan(strategy="cheapest")._repr_html_()) == ["\tb", "\ta", "cost 3"]
+
+
 def test_a_long_plan_is_cut_off_and_a_short_one_says_so(tmp_path: Path) -> None:
     (tmp_path / "long.gl").write_text(
         "domain long\nfluent n: int = 0\naction inc:\n    causes n := n + 1\n"

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 from collections.abc import Set
 from pathlib import Path
 
 import pytest
 
+from golc.diagnostics import Findings, Source, UserError
+from golc.embed.printing import python_text
 from golc.loading import examine
+from golc.rendering import render
+from golc.syntax.parse import parse_file
 from tests.checks.slips import CORPUS, Mistake, mistakes, said
+from tests.notation import no_python
 
 FOUR = frozenset({"misspelt name", "wrong arity", "wrong type", "missing part"})
 WORDS = frozenset({"misspelt keyword", "missing part"})
@@ -53,6 +59,34 @@ def test_a_mistake_is_one_finding(mistake: Mistake, folder: Path, monkeypatch: p
     findings = examine("depot.gl", proofs=True).findings
     assert [line for finding in findings for line in said(finding)] == mistake.said
     assert len(findings) == 1
+
+
+def in_other_words() -> list[Mistake]:
+    """One mistake for each sentence that is said of some, whatever it quotes."""
+    sentences = {tuple(re.sub("`[^`]*`|\\d+", "…", line) for line in mistake.said): mistake for mistake in mistakes()}
+    return [*sentences.values()]
+
+
+def test_a_mistake_in_python_is_told_in_python(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    told: dict[str, list[str]] = {}
+    codes: set[str] = set()
+    for mistake in in_other_words():
+        findings = Findings()
+        tree = parse_file(Source("depot.gl", "\n".join(mistake.text) + "\n"), findings)
+        if tree is None or findings.has_errors:
+            continue  # it is about the text of a `.gl` file
+        try:
+            Path("depot_in_python.py").write_text(python_text(tree), encoding="utf-8")
+        except UserError:
+            continue  # Python itself does not read it
+        for finding in examine("depot_in_python.py", proofs=True).findings:
+            if finding.span.source.name == "depot_in_python.py":
+                codes.add(finding.code.code)
+                told[mistake.title] = told.get(mistake.title, []) + no_python(render(finding))
+                assert finding.fix is None
+    assert {title: pieces for title, pieces in told.items() if pieces} == {}
+    assert len(codes) > 30
 
 
 def test_every_kind_of_line_has_every_sort_of_mistake() -> None:

@@ -121,6 +121,10 @@ CASES = {
         "action a:\n    causes forall n: small. x := n\n",
         [("GL040", 9, "`a` may give `x` two values at once")],
     ),
+    "effects for values of variables of their own": (
+        "action a:\n    causes forall n: small. x := 1 when n = 1\n    causes forall n: small. x := 2 when n = 2\n",
+        [("GL040", 10, "`a` may give `x` two values at once")],
+    ),
     "an invariant that an action breaks": (
         "invariant shut: gate != open or x = 0\naction a:\n    causes x := 1\n",
         [("GL042", 9, "`a` may break invariant `shut`")],
@@ -183,6 +187,16 @@ CASES = {
         "proc control:\n    test gate = closed\n    a\n",
         [],
     ),
+    "an action that another branch may do meanwhile": (
+        "action inc:\n    poss x < 3\n    causes x := x + 1\nproc control:\n    together:\n        test x = 1\n"
+        "        if x = 1:\n            inc\n    and:\n        inc\n",
+        [],
+    ),
+    "a branch that nothing disturbs": (
+        "action inc:\n    poss x < 3\n    causes x := x + 1\naction b\nproc control:\n"
+        "    together:\n        test x = 1\n        if x = 1:\n            inc\n    and:\n        b\n",
+        [("GL073", 15, "this condition is always true here")],
+    ),
     "an action that an action before it makes possible": (
         "action a:\n    poss gate = open\naction b:\n    causes gate := open\n"
         "proc control:\n    test gate = closed\n    b\n    a\n",
@@ -243,6 +257,17 @@ CASES = {
         [("GL043", 11, "`a` can never be possible")],
     ),
 }
+
+
+def test_what_is_proved_stands_among_the_other_findings_in_the_order_of_the_places(tmp_path: Path) -> None:
+    path = tmp_path / "trial.gl"
+    path.write_text(f"{DOMAIN}const spare = 3\naction a:\n    causes x := x + 1\nconst rest = 4\n")
+    findings = examine(path, proofs=True).findings
+    assert [(f.code.code, f.span.line) for f in findings if f.span.line > 7] == [
+        ("GL027", 8),
+        ("GL041", 10),
+        ("GL027", 11),
+    ]
 
 
 @pytest.mark.parametrize(("text", "expected"), CASES.values(), ids=CASES)

@@ -167,3 +167,23 @@ def test_states_that_python_leads_to_are_gone_through_with_trust(examined: Check
     unknown = examine(tmp_path / "robot.gl", proofs=True, reachable=True)
     assert unknown.scope is not None and not unknown.scope.whole
     assert {finding.severity for finding in unknown.findings} == {Severity.NOTE}
+
+
+UNBOUNDED = """domain large
+fluent total: int = 0
+fluent other: int = 0
+extern next(n: int): int from "map.py"
+invariant same: total = 0 or total = next(other)
+action step:
+    causes total := next({what})
+"""
+
+
+@pytest.mark.parametrize("trust", [False, True])
+def test_the_solver_takes_a_function_of_integers_for_any(examined: Check, trust: bool) -> None:
+    pytest.importorskip("z3")
+    python = "def next(n):\n    return n + 1\n"
+
+    assert examined(UNBOUNDED.format(what="other + total - total"), python, trust).findings == ()
+    unknown = examined(UNBOUNDED.format(what="other + total"), python, trust).findings
+    assert [finding.code for finding in unknown] == [Code.NOT_DECIDED]

@@ -61,7 +61,7 @@ def test_what_cannot_be_reached_is_no_counterexample(tmp_path: Path) -> None:
     path = tmp_path / "trial.gl"
     path.write_text(text)
     assert [finding.code.code for finding in examine(path, proofs=True).findings] == ["GL041", "GL040"]
-    assert [finding.code.code for finding in examine(path, proofs=True, reachable=True).findings] == ["GL041"]
+    assert [finding.code.code for finding in examine(path, proofs=True, reachable=True).findings] == ["GL041", "GL073"]
 
 
 def test_an_effect_that_is_wrong_at_first(tmp_path: Path) -> None:

@@ -97,3 +97,80 @@ def test_files_of_an_example_are_named(capsys: Captured, monkeypatch: pytest.Mon
 def test_other_arguments_are_no_use(arguments: list[str], message: str, capsys: Captured) -> None:
     assert invoke(["explain", *arguments]) == 2
     assert message in capsys.readouterr().err
+
+
+def test_a_code_with_examples_in_python(capsys: Captured, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    assert invoke(["explain", "GL104", "--python"]) == 0
+    assert (
+        capsys.readouterr().out
+        == """GL104: `min` or `max` over nothing
+
+`min` and `max` have a value only if something satisfies their `where`.
+
+Wrong
+
+    from __future__ import annotations
+
+    from golc.embed import Theory, interval
+
+    theory = Theory("lift")
+
+    floor = theory.type("floor", interval(1, 4))
+
+
+    @theory.fluent
+    def lit(n: floor):
+        return False
+
+
+    @theory.action
+    def go(to: floor):
+        pass
+
+
+    @theory.proc
+    def control():
+        go(min(n for n in floor if lit(n)))
+
+    $ golc plan example.py
+
+Right
+
+    from __future__ import annotations
+
+    from golc.embed import Theory, interval
+
+    theory = Theory("lift")
+
+    floor = theory.type("floor", interval(1, 4))
+
+
+    @theory.fluent
+    def lit(n: floor):
+        return False
+
+
+    @theory.action
+    def go(to: floor):
+        pass
+
+
+    @theory.proc
+    def control():
+        if any(lit(n) for n in floor):
+            go(min(n for n in floor if lit(n)))
+"""
+    )
+
+
+def test_a_code_about_the_text_has_no_examples_in_python(capsys: Captured) -> None:
+    assert invoke(["explain", "GL009", "--python"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith("GL009: ") and "domain lamp" in out
+    assert err == "GL009 is about the text of a `.gl` file: its examples have no form in Python\n"
+
+
+def test_python_is_for_codes(capsys: Captured) -> None:
+    assert invoke(["explain", ELEVATOR, "off", "--python"]) == 2
+    assert "--python is for a CODE, not for a FILE and a NAME" in capsys.readouterr().err

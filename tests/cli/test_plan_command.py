@@ -400,3 +400,13 @@ def test_plans_that_branch_are_not_listed(gates: str) -> None:
 def test_the_cost_is_that_of_the_dearest_branch(gates: str) -> None:
     done = golc("plan", gates, "--cheapest", "--stats")
     assert done.stderr.startswith("1 plan of cost 5, ")
+
+
+@pytest.mark.parametrize(("color", "head"), [("always", "\x1b[1;31merror[GL012]\x1b[0m"), ("never", "error[GL012]: ")])
+def test_what_ends_a_command_has_the_color_that_was_asked_for(
+    color: str, head: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "wrong.gl").write_text("domain wrong\nproc control:\n    test x\n    test y\n")
+    assert invoke(["plan", str(tmp_path / "wrong.gl"), "--color", color]) == 1
+    first, _, second = capsys.readouterr().err.partition("\n\n")
+    assert (first.startswith(head), second.startswith(head)) == (True, True)

@@ -10,26 +10,36 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from textwrap import indent
+from typing import TypeAlias
 
 import pytest
 
 from golc.cli import invoke
 from golc.codes.pages import EXAMPLE, Example, page
+from golc.codes.python import in_python
 from golc.diagnostics import Code, Findings, Source
 from golc.syntax.format import formatted
+from tests.notation import no_python
+
+GOLC_ONLY = {
+    **dict.fromkeys([f"GL00{number}" for number in range(2, 10)], "it is about the text of a `.gl` file"),
+    "GL032": "comments are not converted",
+    "GL110": "it is about an events file",
+}
+"""The codes whose wrong example has no Python form, or another finding there, and why."""
 
 FOUND = re.compile(r"^(?:error|warning|note)\[(GL\d{3})\]", re.MULTILINE)
+Said: TypeAlias = Callable[[Example, Path], str]
+
 QUICK = ("check", "plan", "test", "gen-nqc")
 """Commands without threads and signals, which are called in this process."""
 
 
 @pytest.fixture
-def found(
-    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> Iterator[Callable[[Example, Path], list[str]]]:
-    """The codes that the command of an example finds in its files, which are written into a folder."""
+def said(monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]) -> Iterator[Said]:
+    """What the command of an example says of its files, which are written into a folder."""
 
-    def find(example: Example, folder: Path) -> list[str]:
+    def say(example: Example, folder: Path) -> str:
         folder.mkdir()
         for name, text in example.files.items():
             path = folder / name
@@ -44,10 +54,10 @@ def found(
             code = subprocess.run(command, stdin=subprocess.DEVNULL, timeout=120, check=False).returncode
         said = "".join(capfd.readouterr())
         assert code in (0, 1, 5), said
-        return FOUND.findall(said)
+        return said
 
     before = sys.getrecursionlimit()
-    yield find
+    yield say
     sys.setrecursionlimit(before)  # the command line raises it
 
 
@@ -56,14 +66,23 @@ def needs_nqc(example: Example) -> bool:
 
 
 @pytest.mark.parametrize("code", Code, ids=lambda code: code.code)
-def test_the_examples_are_what_they_are_for(
-    code: Code, tmp_path: Path, found: Callable[[Example, Path], list[str]]
-) -> None:
+def test_the_examples_are_what_they_are_for(code: Code, tmp_path: Path, said: Said) -> None:
     wrong, right = page(code).wrong, page(code).right
     if shutil.which("nqc") is None and (needs_nqc(wrong) or needs_nqc(right)):
         pytest.skip("nqc is missing")
-    assert found(wrong, tmp_path / "wrong") == [code.code]
-    assert found(right, tmp_path / "right") == []
+    assert FOUND.findall(said(wrong, tmp_path / "wrong")) == [code.code]
+    assert FOUND.findall(said(right, tmp_path / "right")) == []
+
+
+@pytest.mark.parametrize("code", [code for code in Code if code.code not in GOLC_ONLY], ids=lambda code: code.code)
+def test_a_finding_about_python_is_told_in_python(code: Code, tmp_path: Path, said: Said) -> None:
+    shown = in_python(page(code))
+    assert shown is not None
+    if shutil.which("nqc") is None and (needs_nqc(shown.wrong) or needs_nqc(shown.right)):
+        pytest.skip("nqc is missing")
+    rendered = said(shown.wrong, tmp_path / "wrong")
+    assert (FOUND.findall(rendered), no_python(rendered)) == ([code.code], [])
+    assert FOUND.findall(said(shown.right, tmp_path / "right")) == []
 
 
 @pytest.mark.parametrize("code", Code, ids=lambda code: code.code)

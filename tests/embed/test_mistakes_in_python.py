@@ -5,12 +5,14 @@ Below a line stand its findings, ``#! column+width code message`` and ``#! help:
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
 
 from golc.embed.modules import read_theory
+from golc.rendering import render
+from tests.notation import no_python
+from tests.remarks import remarks
 
 FILES = sorted(Path(__file__).with_name("mistakes").glob("*.py"))
 
@@ -19,20 +21,11 @@ FILES = sorted(Path(__file__).with_name("mistakes").glob("*.py"))
 def test_each_mistake_is_one_finding_and_hides_none(path: Path) -> None:
     said = []
     for diagnostic in read_theory(path).findings.diagnostics:
+        assert no_python(render(diagnostic)) == []
         span = diagnostic.span
         place = f"{span.column}+{span.end - span.start}"
         said.append((span.line, f"{place} {diagnostic.code.code} {diagnostic.message}"))
         if diagnostic.help is not None:
             said.append((span.line, f"help: {diagnostic.help}"))
 
-    assert sorted(said) == sorted(_expected(path.read_text(encoding="utf-8")))
-
-
-def _expected(text: str) -> list[tuple[int, str]]:
-    expected, line = [], 0
-    for number, content in enumerate(text.splitlines(), 1):
-        if note := re.match("#! (.*)", content):
-            expected.append((line, note.group(1)))
-        else:
-            line = number
-    return expected
+    assert sorted(said) == remarks(path.read_text(encoding="utf-8"))

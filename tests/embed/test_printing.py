@@ -13,9 +13,11 @@ from textwrap import dedent
 
 import pytest
 
+from golc import embed
 from golc.cli import invoke
 from golc.diagnostics import Findings, Source, UserError
 from golc.embed.modules import read_theory
+from golc.embed.names import WORDS, golc_name, python_name
 from golc.embed.printing import python_text
 from golc.loading import examine
 from golc.syntax import tree as ast
@@ -32,6 +34,12 @@ FILES = [
 ]
 
 Printed = Callable[[str], str]
+
+
+def test_no_word_of_the_package_becomes_another_name() -> None:
+    assert set(embed.__all__) == WORDS
+    assert {golc_name(python_name(word)) for word in WORDS} == WORDS
+    assert not WORDS.intersection(map(python_name, WORDS))
 
 
 def parsed(source: Source) -> ast.File:

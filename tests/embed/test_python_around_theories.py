@@ -40,6 +40,29 @@ def test_a_loop_declares_a_family_of_fluents_and_actions(text_of: Text) -> None:
     )
 
 
+def test_a_range_with_a_step_is_a_list_in_a_program(text_of: Text) -> None:
+    text = text_of(
+        """
+        from golc.embed import Theory
+
+        theory = Theory("lamps")
+
+        @theory.action
+        def go(n: int):
+            pass
+
+        @theory.proc
+        def control():
+            for n in range(1, 6, 2):
+                go(n)
+            for n in range(1, 3):
+                go(n)
+        """
+    )
+
+    assert text.endswith("proc control:\n    for n in [1, 3, 5]:\n        go(n)\n    for n: 1..2:\n        go(n)\n")
+
+
 def test_the_variable_of_a_loop_has_to_be_given(wrong_with: Wrong) -> None:
     found = wrong_with(
         """
@@ -59,7 +82,7 @@ def test_the_variable_of_a_loop_has_to_be_given(wrong_with: Wrong) -> None:
         ("GL145", "`k` was 0 when the function was declared and is 2 now", 10, "k"),
         ("GL145", "`k` was 1 when the function was declared and is 2 now", 10, "k"),
     ]
-    assert found[0].help == "give it to the function as a default: `def set_level(…, k=k)`"
+    assert found[0].help == "give it to the function as a default: `def set_level(…, k=k):`"
 
 
 def test_a_mutable_default_is_refused(wrong_with: Wrong) -> None:
@@ -466,6 +489,10 @@ def test_a_table_from_a_file_is_told_what_is_missing(
         (
             "from golc.embed import Theory\ndef lifts(n):\n    return Theory('lifts')",
             "call the function that makes it where every import runs it: `theory = delivery(6)`",
+        ),
+        (
+            "from golc.embed import symbols\nred, green = symbols('red', 'green')",
+            'begin it with `from golc.embed import Theory` and `theory = Theory("delivery")`',
         ),
     ],
 )

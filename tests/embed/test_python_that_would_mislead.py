@@ -371,7 +371,12 @@ def test_a_file_may_go_into_another_folder(text_of: Text, tmp_path: Path) -> Non
 
 @pytest.mark.parametrize(
     ("condition", "help_"),
-    [("power", "compare it: `power == …`"), ("not 3", "a truth value is `True` or `False`")],
+    [
+        ("power", "compare it: `power == …`"),
+        ("not 3", "a truth value is `True` or `False`"),
+        ("not {at}", "compare it: `{at} != set()`; ask: `x in {at}`; `+` joins it with another"),
+        ("sum(light(r) == 1 for r in room) == 2", "write `count(light(r) == 1 for …)` for how often it is true"),
+    ],
 )
 def test_help_with_types_speaks_python(tmp_path: Path, condition: str, help_: str) -> None:
     path = tmp_path / "t.py"

@@ -78,3 +78,27 @@ def test_files_that_a_cell_names_lie_in_the_folder_of_the_notebook(
     assert [shop.value(shop.initial(), f"price({n})") for n in (1, 3)] == [2, 6]
     assert [source.name for source in theory.written().sources] == ["In [1234]"]
     assert [finding.span.source.name for finding in golc.check(theory).findings] == ["In [1234]"]
+
+
+def test_an_error_shows_the_cell_and_what_it_says_without_the_inside_of_golc(cell: Cell) -> None:
+    cell("import golc\nfrom golc.embed import *\ntheory = Theory('lift')\nat = theory.fluent('at', int, 1)\n")
+    with pytest.raises(golc.UserError) as error:
+        cell("def checked(φ):\n    return φ and True\n\ntheory.goal('top', checked(at == 3))\n")
+
+    lines = error.value._render_traceback_()
+    assert (
+        lines[-9:]
+        == [
+            "<ipython-input-2-test>, line 4:",
+            "    theory.goal('top', checked(at == 3))",
+            "<ipython-input-2-test>, line 2:",
+            "    return φ and True",
+            "error[GL142]: `and` asks a term for its truth now, before there is a situation",
+            " --> <ipython-input-2-test>:2:12",
+            "  |",
+            "2 |     return φ and True",
+            "  |            ^^^^^^^^^^",
+            "  = help: write `(…) & (…)`, or write it in a translated function",
+        ][-9:]
+    )
+    assert not any("golc/embed" in line for line in lines)

@@ -107,7 +107,10 @@ def test_one_behaviour_is_used_in_one_way(workshop: Workshop) -> None:
 
 @pytest.mark.parametrize(
     "line",
-    ["set pol 1 s", "set poll -1 s", "set range 3", "set range 0.5", "set action_digits 1", "set control_base 0"],
+    [
+        *("set pol 1 s", "set poll -1 s", "set range 3", "set range -1", "set range 0.5", "set action_digits 1"),
+        *("set action_digits 128", "set value_base 255", "set control_base 0", "set control_base 251"),
+    ],
 )
 def test_settings_that_make_no_sense_are_found(workshop: Workshop, line: str) -> None:
     assert codes(workshop, f"domain d\naction a\ndevice rcx:\n    0 a\n    {line}\n") == ["GL089"]
@@ -122,9 +125,18 @@ def test_only_bricks_have_settings(workshop: Workshop) -> None:
     assert codes(workshop, "domain d\naction a\ndevice self:\n    a\n    set poll 1 s\n") == ["GL089"]
 
 
-def test_settings_that_make_sense_are_taken(workshop: Workshop) -> None:
-    text = "domain d\naction a\ndevice rcx:\n    0 a\n    set poll 0.25 s\n    set range 1\n    set silence 0 s\n"
-    assert codes(workshop, text) == []
+@pytest.mark.parametrize(
+    "lines",
+    [
+        ["set poll 0.25 s", "set range 1", "set silence 0 s"],
+        ["set poll 0 s", "set range 2"],
+        ["set range 0", "set value_digits 2", "set action_digits 2"],
+        ["set action_digits 127", "set action_base 1", "set value_base 254"],
+    ],
+)
+def test_settings_that_make_sense_are_taken(workshop: Workshop, lines: list[str]) -> None:
+    text = "".join(f"    {line}\n" for line in lines)
+    assert "GL089" not in codes(workshop, f"domain d\naction a\ndevice rcx:\n    0 a\n{text}")
 
 
 @pytest.mark.parametrize(
@@ -133,6 +145,8 @@ def test_settings_that_make_sense_are_taken(workshop: Workshop) -> None:
         ("    set action_base 100\n", []),
         ("    set action_base 50\n", ["GL092"]),
         ("    set control_base 250\n", []),
+        ("    set action_base 224\n", []),
+        ("    set action_base 225\n", ["GL092"]),
         ("    set control_base 70\n", ["GL092"]),
         ("    set action_base 200\n    set action_digits 40\n", ["GL092"]),
     ],
@@ -190,3 +204,18 @@ def test_an_nqc_file_that_cannot_be_read_is_one_finding(workshop: Workshop) -> N
     path = workshop.write("robot.gl", 'domain d\naction a\nproc control:\n    a\ndevice rcx "robot.nqc":\n    0 a\n')
     found = examine(path, proofs=True).findings
     assert [(diagnostic.code.code, diagnostic.span.line) for diagnostic in found] == [("GL001", 5)]
+
+
+@pytest.mark.parametrize(
+    ("first", "count", "help_"),
+    [
+        (0, 16, None),
+        (10, 16, "number the actions from 0 to 15, and what the brick reports after them"),
+        (0, 17, "`set action_base 86` and `set action_digits 17` make it one message"),
+        (0, 85, "`set action_base 86` and `set action_digits 85` make it one message"),
+        (0, 86, None),
+    ],
+)
+def test_how_a_number_needs_one_message_only(workshop: Workshop, first: int, count: int, help_: str | None) -> None:
+    found = workshop.found(f"domain d\naction a(n: 1..{count})\ndevice rcx:\n    {first} .. a(n: 1..{count})\n")
+    assert [(each.code.code, each.help) for each in found] == ([("GL081", help_)] if first + count > 16 else [])

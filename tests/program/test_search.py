@@ -36,6 +36,21 @@ def test_without_search_the_first_step_is_committed(start: Start) -> None:
     assert start(body).run() == ["a", "blocked"]
 
 
+def test_a_way_goes_on_by_the_same_choices_only_if_the_same_program_remains(start: Start) -> None:
+    after_a = start("""
+        search:
+            a
+            if p:
+                b
+                a
+            else:
+                b
+                c
+    """).take()
+    assert after_a.run() == ["b", "c"]
+    assert after_a.event("set_p").run() == ["b", "a"]
+
+
 def test_search_that_finds_no_way_is_blocked_and_has_done_nothing(start: Start) -> None:
     program = start("""
         search:

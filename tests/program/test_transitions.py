@@ -48,6 +48,18 @@ def test_a_sequence_steps_its_first_part(start: Start) -> None:
     """).labels() == ["a"]
 
 
+def test_interrupts_are_final_only_when_nothing_can_step_though_their_body_might_end(start: Start) -> None:
+    program = start("""
+        interrupts:
+            on x = 0:
+                inc
+                star:
+                    a
+    """).take()
+    assert program.labels() == ["a"]
+    assert not program.final
+
+
 def test_a_final_first_part_lets_the_second_step_first(start: Start) -> None:
     program = start("""
         star:

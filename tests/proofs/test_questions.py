@@ -5,20 +5,19 @@ from __future__ import annotations
 import itertools
 import sys
 import tracemalloc
-from collections.abc import Callable
 from os import environ
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from golc.diagnostics import ProgramError
 from golc.proofs.prover import Prover
 from golc.proofs.questions import Asked, Question, Undecided, Witness
 from golc.proofs.solver import solve
 from golc.situation.dynamics import Dynamics
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show_call
+from tests.proofs.outcomes import outcome
 from tests.theories import theory_of
 
 HEAD = """\
@@ -88,14 +87,6 @@ def test_a_solver_answers_as_trying_many_situations_does(formula: str) -> None:
             values = {show_call(*name): value for name, value in found[0].items()}
             state = situation(theory, Witness(values, ()))
             assert outcome(evaluate, state) is (None if fails else True), values
-
-
-def outcome(evaluate: Callable[..., object], state: tuple[object, ...]) -> bool | None:
-    """Whether a formula is true; none if it has no value."""
-    try:
-        return bool(evaluate(state, ()))
-    except ProgramError:
-        return None
 
 
 def situation(theory: BasicActionTheory, witness: Witness) -> tuple[object, ...]:

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from os import environ
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from golc.diagnostics import ProgramError
 from golc.proofs.questions import Asked, Question
 from golc.proofs.solver import solve
 from golc.proofs.symbols import NotDecidedError
 from golc.situation.dynamics import Dynamics
 from golc.theory.types import show_call
+from tests.proofs.outcomes import outcome
 from tests.theories import theory_of
 
 HEAD = """\
@@ -54,14 +54,6 @@ def formulas(atoms: list[str]) -> st.SearchStrategy[str]:
     pairs = st.tuples(st.sampled_from(atoms), st.sampled_from(["and", "or", "implies"]), st.sampled_from(atoms))
     joined = pairs.map(lambda parts: f"({parts[0]}) {parts[1]} ({parts[2]})")
     return st.one_of(st.sampled_from(atoms), joined, joined.map(lambda formula: f"not ({formula})"))
-
-
-def outcome(evaluate: Callable[..., object], state: tuple[object, ...]) -> bool | None:
-    """Whether a formula is true; none if it has no value."""
-    try:
-        return bool(evaluate(state, ()))
-    except ProgramError:
-        return None
 
 
 def agrees(formula: str, states: Sequence[tuple[object, ...]]) -> bool:
@@ -116,3 +108,18 @@ def test_each_formula_by_itself(formula: str) -> None:
     maybes = [None, frozenset[int](), frozenset({1}), frozenset({1, 2})]
     states = itertools.product(range(3), SUBSETS, maybes, LISTS, ["", "x"])
     assert agrees(formula, [(x, seen, *empty, maybe, route, note) for x, seen, maybe, route, note in states])
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "quotient", "rest"),
+    [(7, 2, 3, 1), (-7, 2, -4, 1), (7, -2, -4, -1), (-7, -2, 3, -1), (6, -2, -3, 0), (0, -5, 0, 0)],
+)
+def test_a_solver_divides_as_the_language_does(left: int, right: int, quotient: int, rest: int) -> None:
+    """The quotient is rounded down; what remains has the sign of the divisor."""
+    for wrong in (0, 1):
+        theory = theory_of(
+            f"domain trial\nfluent a: int = 0\nfluent b: int = 0\ndefine asked := a = {left} and b = {right}"
+            f" and (a // b != {quotient + wrong} or a % b != {rest})\n"
+        )
+        found = solve(theory, Question((), (Asked(theory.definitions["asked"].body),)))
+        assert (found is None) == (wrong == 0)

@@ -39,6 +39,8 @@ def shown(formula: str, fails: bool = False, more: str = "") -> dict[str, object
         ("y > 4 or y < -2", {"y": -3}),
         ("y != 0", {"y": 1}),
         ("far < -700 or far > 800", {"far": -701}),
+        ("far > 999999", {"far": 1000000}),
+        ("far = -1000000", {"far": -1000000}),
         ("(x = 1 and on(1)) or y = 9", {"y": 9}),
         ("on(x)", {"x": 0, "on(0)": True}),
         ("x = 2 and on(x)", {"x": 2, "on(2)": True}),

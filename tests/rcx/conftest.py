@@ -15,6 +15,7 @@ from typing import Any
 import pytest
 
 from golc.runtime.devices.rcx import Brick, Tower
+from tests.rcx.frames import frame
 
 SMALL_BRICK = Path(__file__).with_name("small_brick.py")
 ANSWERS: dict[str, list[Any]] = {"36": [[64]], "83": [[84]], "81": [[]]}
@@ -49,12 +50,6 @@ def small_brick() -> Iterator[Callable[..., SmallBrick]]:
     for process in started:
         process.kill()
         process.communicate()
-
-
-def frame(number: int) -> bytes:
-    """The nine bytes of a user message, worked out anew."""
-    total = (0xF7 + number) & 0xFF
-    return bytes((0x55, 0xFF, 0x00, 0xF7, 0x08, number, number ^ 0xFF, total, total ^ 0xFF))
 
 
 FRAME = re.compile(rb"\x55\xff\x00\xf7\x08(.)...", re.DOTALL)
@@ -143,11 +138,6 @@ class Air:
 @pytest.fixture
 def air() -> type[Air]:
     return Air
-
-
-@pytest.fixture
-def frame_of() -> Callable[[int], bytes]:
-    return frame
 
 
 def scripted(table: Mapping[int, Sequence[Sequence[int | tuple[float, int]]]]) -> Answerer:

@@ -8,13 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from golc.runtime.devices.rcx import Tower
+from tests.rcx.frames import frame
 
 AIR_SECONDS = 9 * 11 / 2400
-
-
-def frame(number: int) -> bytes:
-    total = (0xF7 + number) & 0xFF
-    return bytes((0x55, 0xFF, 0x00, 0xF7, 0x08, number, number ^ 0xFF, total, total ^ 0xFF))
 
 
 def replying(number: int) -> Callable[[int, float], list[tuple[float, int]]]:

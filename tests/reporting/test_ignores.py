@@ -130,3 +130,24 @@ def test_what_is_left_out_does_not_count(tmp_path: Path, capsys: pytest.CaptureF
     path.write_text("domain a\nfluent f = x\n")
     assert invoke(["check", "--ignore", "GL012", "--ignore", "GL028", str(path)]) == 0
     assert capsys.readouterr().err.splitlines()[-1] == "checked 1 file: nothing found"
+
+
+PYTHON = '''"""What is spare can be left out:
+
+# golc: ignore[GL027]
+"""
+from golc.embed import Theory
+
+theory = Theory("a")
+spare = theory.const("spare", 3)  # golc: ignore[GL027]
+quote = '"'  # golc: ignore[GL027] of "Python"
+word = '# golc: ignore'
+'''
+
+
+def test_only_comments_of_python_are_comments(tmp_path: Path) -> None:
+    path = tmp_path / "a.py"
+    path.write_text(PYTHON)
+
+    assert shown(path) == ["9:29 GL032 there is no finding GL027 to leave out here | remove the code"]
+    assert [finding.fix for finding in heed(examine(path, proofs=True), True)] == [None]

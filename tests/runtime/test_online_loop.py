@@ -28,6 +28,7 @@ from golc.runtime.loop.happenings import (
 )
 from golc.runtime.loop.inbox import Broken, Command, Report
 from golc.runtime.loop.policy import OnImpossible, Policy
+from golc.theory.types import show_call
 
 HEAD = """
 domain trial
@@ -88,6 +89,28 @@ def test_events_are_taken_in_one_by_one_in_order_of_arrival_duplicates_kept(star
 
     assert run.story() == ["<flip", "<become(2)", "<flip", "<flip"]
     assert run.value("p") is True
+
+
+@pytest.mark.parametrize(
+    ("during", "since"), [(["set_x(1)"], "become(3)"), (["set_x(1)", "a"], "flip, become(3)"), ([], "become(3)")]
+)
+def test_where_a_plan_is_lost_the_events_since_its_first_action_are_told(
+    start: Start, event: Event, during: list[str], since: str
+) -> None:
+    def perform(action: str, args: Args) -> Args:
+        if show_call(action, args) in during:
+            run.inbox.put(event("flip"))
+        if args == (2,):
+            run.inbox.put(event("become", 3))
+        return ()
+
+    run = start(program("set_x(1)\nsearch:\n    a\n    set_x(2)\n    test x = 2\n    b"), perform=perform)
+
+    with pytest.raises(ProgramError) as raised:
+        run.run()
+
+    assert raised.value.diagnostic.code is Code.BLOCKED
+    assert raised.value.diagnostic.notes == (f"exogenous actions since the plan was made: {since}",)
 
 
 def test_a_test_step_comes_before_an_action_that_stands_above_it(start: Start) -> None:

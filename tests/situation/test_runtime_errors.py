@@ -41,6 +41,28 @@ ERRORS = [
 ]
 
 
+def test_a_number_has_100_000_bits_at_most() -> None:
+    text = "fluent two: int = 2\naction put(n: int):\n    causes x := n\naction twice:\n    causes x := x * two\n"
+    dynamics = Dynamics(theory_of(DOMAIN + text))
+    state = dynamics.progress(dynamics.initial(), "put", (2**99_998,))
+    largest = dynamics.progress(state, "twice", ())
+
+    assert dynamics.value(largest, "x") == 2**99_999
+    with pytest.raises(ProgramError, match="goes up to 100,000 bits"):
+        dynamics.progress(largest, "twice", ())
+
+
+def test_a_list_has_only_so_many_elements(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("golc.situation.guards.MOST_ELEMENTS", 3)
+    text = "fluent l: list[int] = [7, 8]\naction put(n: int):\n    causes l := l + [n]\n"
+    dynamics = Dynamics(theory_of(DOMAIN + text))
+    full = dynamics.progress(dynamics.initial(), "put", (9,))
+
+    assert dynamics.value(full, "l") == (7, 8, 9)
+    with pytest.raises(ProgramError, match="goes up to 3 elements"):
+        dynamics.progress(full, "put", (9,))
+
+
 @pytest.mark.parametrize(("effect", "code", "place", "message"), ERRORS, ids=[error[0] for error in ERRORS])
 def test_an_effect_that_cannot_be_is_an_error_with_its_place(effect: str, code: str, place: str, message: str) -> None:
     theory = theory_of(f"{DOMAIN}action a:\n    causes {effect}\n")

@@ -6,7 +6,6 @@ a second place that a finding mentions, and ``#! fix:`` stands before what its f
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 
 import pytest
@@ -15,6 +14,7 @@ from golc.diagnostics import Diagnostic, Findings, Span
 from golc.edits import applied, moved
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_domain
+from tests.remarks import remarks
 
 FILES = sorted(Path(__file__).with_name("mistakes").glob("*.gl"))
 
@@ -32,7 +32,7 @@ def test_each_mistake_is_one_finding(path: Path) -> None:
         said += [(label.span.line, f"label {_place(label.span)} {label.text}") for label in diagnostic.labels]
         said += [(diagnostic.span.line, f"fix: {line}") for line in _fixed(diagnostic)]
 
-    assert sorted(said) == sorted(_expected(source.text))
+    assert sorted(said) == remarks(source.text)
 
 
 def _fixed(diagnostic: Diagnostic) -> list[str]:
@@ -48,13 +48,3 @@ def _fixed(diagnostic: Diagnostic) -> list[str]:
 
 def _place(span: Span) -> str:
     return f"{span.column}+{span.end - span.start}"
-
-
-def _expected(text: str) -> list[tuple[int, str]]:
-    expected, line = [], 0
-    for number, content in enumerate(text.splitlines(), 1):
-        if note := re.match("#! (.*)", content):
-            expected.append((line, note.group(1)))
-        else:
-            line = number
-    return expected

@@ -106,8 +106,9 @@ def test_a_planted_file_runs_nothing(cache: Path, tmp_path: Path) -> None:
     assert not trace.exists()
 
 
-def test_a_file_that_others_may_write_is_not_read(cache: Path) -> None:
-    kept(cache).chmod(0o666)
+@pytest.mark.parametrize("mode", [0o666, 0o660, 0o602])
+def test_a_file_that_others_may_write_is_not_read(cache: Path, mode: int) -> None:
+    kept(cache).chmod(mode)
 
     assert works()
     assert parser().source_path != "<deserialized>"
@@ -124,7 +125,7 @@ def test_a_link_in_place_of_the_file_is_not_followed(cache: Path, tmp_path: Path
     assert not target.is_symlink()
 
 
-@pytest.mark.parametrize("mode", [0o777, 0o770])
+@pytest.mark.parametrize("mode", [0o777, 0o770, 0o702])
 def test_a_directory_that_others_may_write_is_not_used(empty: Path, mode: int) -> None:
     empty.mkdir()
     empty.chmod(mode)

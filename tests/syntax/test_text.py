@@ -79,6 +79,16 @@ def test_a_device_without_end() -> None:
     assert refused("/dev/zero").message == f"cannot read `/dev/zero`: it is larger than {LARGEST // 2**20} MiB"
 
 
+def test_a_file_may_be_as_large_as_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("golc.syntax.text.LARGEST", 9)
+    path = tmp_path / "a.gl"
+    path.write_bytes(b"domain d\n")
+    assert read_source(path).text == "domain d\n"
+
+    path.write_bytes(b"domain d2\n")
+    assert "it is larger than" in refused(path).message
+
+
 def test_utf_16(tmp_path: Path) -> None:
     path = tmp_path / "a.gl"
     path.write_bytes("domain d\n".encode("utf-16"))

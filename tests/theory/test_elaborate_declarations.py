@@ -167,6 +167,27 @@ def test_what_stands_in_place_of_a_name_declares_even_if_nothing_uses_it(theory:
     assert theory("action paint(c: {red, green})\n").symbols == {"red", "green"}
 
 
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("type t = 2..2\n", []),
+        ("type t = 3..2\n", ["1:10 GL022 the interval 3..2 is empty"]),
+        ("fluent f(n: 1..1000, m: 1..1000) = false\n", []),
+        ("fluent f(n: 1..1000, m: 1..1001) = false\n", ["1:8 GL022 fluent `f` has more than 1000000 instances"]),
+        ("action a:\n    cost 0\n", []),
+        ("action a:\n    cost -1\n", ["2:10 GL017 the cost -1 is negative"]),
+        ("proc p:\n    star at most 0:\n        skip\n", []),
+        ("proc p:\n    star at most -1:\n        skip\n", ["2:18 GL017 the number -1 is negative"]),
+        ("proc p:\n    wait 0 s\n", []),
+        ("proc p:\n    wait -0.5 s\n", ["2:10 GL017 the time -0.5 s is negative"]),
+        ("action a\ndevice self:\n    a timeout 0.1 s\n", []),
+        ("action a\ndevice self:\n    a timeout 0 s\n", ["3:15 GL017 a timeout has to be positive"]),
+    ],
+)
+def test_limits_are_exact(found: Build, text: str, expected: list[str]) -> None:
+    assert found(text) == expected
+
+
 def test_an_interval_that_cannot_be_counted_is_refused(found: Build) -> None:
     text = f"const top = {2**70}\ntype vast = 0..top\nfluent far: vast = top\n"
     assert [line.split()[1] for line in found(text)] == ["GL022"]

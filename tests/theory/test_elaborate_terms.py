@@ -156,10 +156,25 @@ def test_spans_are_those_of_the_text(theory: Build) -> None:
 
 def test_one_mistake_is_one_finding(found: Build) -> None:
     text = HEAD + "define ok := at = 1 and motion = stopped\n"
-    it = "(att + 1) * 2 in station and lit(att - 1) implies motoin = stopped and not motoin"
+    it = "(att + 1) * 2 in station and lit(ta - 1) implies motoin = stopped and not moton"
     text += f"define it := {it}\n"
     codes = [line.split()[1] for line in found(text)]
     assert codes == ["GL012"] * 4  # one for each misspelt word, none for what is around it
+
+
+def test_a_name_that_is_misspelt_alike_in_several_places_is_one_finding(found: Build) -> None:
+    text = HEAD + "define it := motoin = stopped\ndefine other := motoin != stopped and motoin != stopped\n"
+    assert [line.split()[1] for line in found(text)] == ["GL012"]
+
+
+def test_a_variable_that_is_misspelt_where_it_is_bound_is_one_finding(found: Build) -> None:
+    text = HEAD + "define it := exists Here: station. here = at and lit(here) and here > 1\n"
+    assert [line.split()[1] for line in found(text)] == ["GL012"]
+
+
+def test_a_variable_that_is_misspelt_in_two_declarations_is_two_findings(found: Build) -> None:
+    text = HEAD + "define aa := exists Here: station. here = at\ndefine bb := exists Here: station. lit(here)\n"
+    assert [line.split()[1] for line in found(text)] == ["GL012"] * 2
 
 
 def test_what_uses_a_broken_declaration_is_not_reported(found: Build) -> None:

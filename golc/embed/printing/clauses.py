@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 from golc.embed.names import python_name
-from golc.embed.printing.functions import called, condition_call, loop
+from golc.embed.printing.functions import called, loop, word_call
 from golc.embed.printing.layout import INDENT, Brackets, Doc, Joined
 from golc.embed.printing.names import Names
 from golc.embed.printing.strings import quoted
@@ -41,11 +41,11 @@ def _variables(clause: ast.Clause) -> tuple[tuple[ast.Binder, ...], ast.Expr | N
 def _clause(names: Names, clause: ast.Clause, indent: int) -> list[str]:
     match clause:
         case ast.Precondition(condition=condition):
-            return condition_call(names, "poss", condition, indent)
+            return word_call(names, "poss", condition, indent)
         case ast.Senses(value=value):
-            return condition_call(names, "senses", value, indent)
+            return word_call(names, "senses", value, indent)
         case ast.Cost(value=value):
-            return condition_call(names, "cost", value, indent)
+            return word_call(names, "cost", value, indent)
         case ast.Effect(target=target, value=changed, condition=when):
             change = (term_doc(names, target), term_doc(names, changed), *optional("when", maybe(names, when)))
             return called(names.word("causes"), *change, indent=indent)
@@ -87,14 +87,14 @@ def scenario_body(names: Names, items: Iterable[ast.ScenarioItem]) -> Iterator[s
 def _scenario_item(names: Names, item: ast.ScenarioItem) -> list[str]:
     match item:
         case ast.Given(condition=condition):
-            return condition_call(names, "given", condition)
+            return word_call(names, "given", condition)
         case ast.Run(program=program):
             return called(names.word("run"), program_doc(names, program))
         case ast.OnEvents(events=events, trigger=trigger, argument=argument):
             moment = keyword(trigger, "True" if argument is None else term_doc(names, argument))
             return called(names.word("on"), *(program_doc(names, event) for event in events), moment)
         case ast.Until(condition=condition):
-            return condition_call(names, "until", condition)
+            return word_call(names, "until", condition)
         case ast.ExpectCount(action=action, relation=relation, count=count):
             number = keyword(relation.replace(" ", "_"), term_doc(names, count))
             return called(names.word("expect"), program_doc(names, action), number)
@@ -102,7 +102,7 @@ def _scenario_item(names: Names, item: ast.ScenarioItem) -> list[str]:
             listed = Brackets("[", tuple(program_doc(names, action) for action in actions), "]", packed=False)
             return called(names.word("expect"), keyword("actions", listed))
         case ast.ExpectFormula(condition=condition):
-            return condition_call(names, "expect", condition)
+            return word_call(names, "expect", condition)
 
 
 def device_body(names: Names, items: Iterable[ast.Binding | ast.Setting]) -> Iterator[str]:

@@ -105,7 +105,7 @@ class Declarations:
     def assigned_call(
         self, place: int, declaration: ast.Const | ast.TypeDecl | ast.Static | ast.Fluent, *args: Doc
     ) -> list[str]:
-        call = call_doc(f"theory.{KINDS[type(declaration)]}", quoted(declaration.name.text), *args)
+        call = call_doc(f"theory.{_method(declaration)}", quoted(declaration.name.text), *args)
         return assigned([self.names.declared[place]], call)
 
     def function(self, place: int, declaration: ast.Declaration) -> list[str]:
@@ -138,9 +138,8 @@ class Declarations:
         returns = None if type_ is None else type_doc(names, type_)
         annotated = parameter_docs(names, parameters)
         options = tuple(_options(declaration))
-        kind = type(declaration).__name__.lower().removesuffix("decl").removesuffix("after")
         python = names.declared[place]
-        decorator = decorator_doc(kind, python, declaration.name.text, options)
+        decorator = decorator_doc(_method(declaration), python, declaration.name.text, options)
         with names.bound(parameter.name.text for parameter in parameters):
             return function_lines(decorator, python, annotated, returns, _body(names, declaration))
 
@@ -162,6 +161,11 @@ Declared: TypeAlias = (
     | ast.Scenario
 )
 """Declarations that have a name."""
+
+
+def _method(declaration: Declared) -> str:
+    """The method of a theory that declares such a thing: mostly the kind of node has its name."""
+    return type(declaration).__name__.lower().removesuffix("decl").removesuffix("after")
 
 
 def _body(names: Names, declaration: Declared) -> Iterable[str]:

@@ -76,6 +76,6 @@ def with_head(call: Doc, indent: int, behind: str = ":") -> list[str]:
     return laid_out(Joined(("with ", call, behind)), indent)
 
 
-def condition_call(names: Names, word: str, formula: ast.Expr, indent: int = INDENT) -> list[str]:
-    """``test(φ)`` and the like."""
-    return called(names.word(word), term_doc(names, formula), indent=indent)
+def word_call(names: Names, word: str, term: ast.Expr, indent: int = INDENT) -> list[str]:
+    """A line that is a word of the language with one term or formula, as ``test(φ)``."""
+    return called(names.word(word), term_doc(names, term), indent=indent)

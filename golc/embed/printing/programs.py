@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from golc.embed.names import python_name
-from golc.embed.printing.functions import called, condition_call, loop, with_head
+from golc.embed.printing.functions import called, loop, with_head, word_call
 from golc.embed.printing.layout import INDENT, Doc, laid_out, laid_out_value
 from golc.embed.printing.names import Names
 from golc.embed.printing.strings import quoted
-from golc.embed.printing.terms import call_doc, maybe, optional, program_doc, term_doc
+from golc.embed.printing.terms import call_doc, keyword, maybe, optional, program_doc, term_doc
 from golc.syntax import tree as ast
 
 
@@ -21,25 +21,16 @@ def block(names: Names, body: ast.Block, indent: int) -> Iterator[str]:
 
 def _statement(names: Names, statement: ast.Statement, indent: int) -> Iterator[str]:
     match statement:
-        case ast.Call(target=target):
-            yield from laid_out(program_doc(names, target), indent)
-        case ast.Skip():
-            yield " " * indent + "pass"
         case ast.If():
             yield from _conditional(names, statement, indent)
         case ast.While(condition=condition, body=body):
             yield from laid_out_value("while ", term_doc(names, condition), ":", indent)
             yield from block(names, body, indent + INDENT)
-        case ast.Pick(binders=binders, where=where, body=body):
-            yield from loop(names, "pick", binders, where, indent, block(names, body, indent + INDENT))
-        case ast.For(binders=binders, where=where, body=body):
-            yield from loop(names, "each", binders, where, indent, block(names, body, indent + INDENT))
-        case ast.Choose(branches=branches):
-            yield from _branches(names, "choose", branches, indent)
-        case ast.Together(branches=branches):
-            yield from _branches(names, "together", branches, indent)
-        case ast.Prefer(branches=branches):
-            yield from _branches(names, "prefer", branches, indent)
+        case ast.Pick(binders=binders, where=where, body=body) | ast.For(binders=binders, where=where, body=body):
+            word = "pick" if isinstance(statement, ast.Pick) else "each"
+            yield from loop(names, word, binders, where, indent, block(names, body, indent + INDENT))
+        case ast.Choose(branches=branches) | ast.Together(branches=branches) | ast.Prefer(branches=branches):
+            yield from _branches(names, type(statement).__name__.lower(), branches, indent)
         case ast.Interrupts(handlers=handlers):
             yield from with_head(call_doc(names.word("interrupts")), indent)
             for handler in handlers:
@@ -49,43 +40,50 @@ def _statement(names: Names, statement: ast.Statement, indent: int) -> Iterator[
             yield from with_head(head, indent, f" as {python_name(name.text)}:")
             with names.bound([name.text]):
                 yield from block(names, body, indent + INDENT)
-        case ast.Within(duration=duration, body=body, otherwise=otherwise):
-            yield from _with(names, call_doc(names.word("within"), term_doc(names, duration)), body, indent)
+        case ast.Within(body=body, otherwise=otherwise):
+            yield from _with(names, _head(names, statement), body, indent)
             if otherwise is not None:
                 yield from _with(names, call_doc(names.word("otherwise")), otherwise, indent)
+        case ast.Star() | ast.TogetherStar() | ast.Guard() | ast.Search():
+            yield from _with(names, _head(names, statement), statement.body, indent)
         case _:
-            yield from _other(names, statement, indent)
+            yield from _line(names, statement, indent)
 
 
-def _other(names: Names, statement: ast.Statement, indent: int) -> Iterator[str]:
-    """A block under one word, or a word alone."""
+def _head(names: Names, statement: ast.Star | ast.TogetherStar | ast.Guard | ast.Search | ast.Within) -> Doc:
+    """The word that a block stands under, with its arguments."""
     match statement:
-        case ast.Star(limit=limit, body=body):
-            yield from _with(
-                names, call_doc(names.word("star"), *optional("at_most", maybe(names, limit))), body, indent
-            )
-        case ast.TogetherStar(body=body):
-            yield from _with(names, call_doc(names.word("together_star")), body, indent)
-        case ast.Guard(condition=condition, body=body):
-            yield from _with(names, call_doc(names.word("guard"), term_doc(names, condition)), body, indent)
-        case ast.Search(body=body):
-            yield from _with(names, _search(names, statement), body, indent)
+        case ast.Star(limit=limit):
+            return call_doc(names.word("star"), *optional("at_most", maybe(names, limit)))
+        case ast.TogetherStar():
+            return call_doc(names.word("together_star"))
+        case ast.Guard(condition=condition):
+            return call_doc(names.word("guard"), term_doc(names, condition))
+        case ast.Search(mode=mode, at_most=at_most, within=within):
+            limits = (*optional("at_most", maybe(names, at_most)), *optional("within", maybe(names, within)))
+            return call_doc(names.word("search"), *(() if mode is None else (quoted(mode),)), *limits)
+        case ast.Within(duration=duration):
+            return call_doc(names.word("within"), term_doc(names, duration))
+
+
+def _line(names: Names, statement: ast.Statement, indent: int) -> list[str]:
+    """A statement that holds no others."""
+    match statement:
+        case ast.Call(target=target):
+            return laid_out(program_doc(names, target), indent)
+        case ast.Skip():
+            return [" " * indent + "pass"]
         case ast.Test(condition=condition):
-            yield from condition_call(names, "test", condition, indent)
+            return word_call(names, "test", condition, indent)
         case ast.Wait():
-            yield from called(names.word("wait"), indent=indent)
+            return called(names.word("wait"), indent=indent)
         case ast.WaitUntil(condition=condition):
-            until = optional("until", term_doc(names, condition))
-            yield from called(names.word("wait"), *until, indent=indent)
+            return called(names.word("wait"), keyword("until", term_doc(names, condition)), indent=indent)
         case ast.WaitTime(duration=duration):
-            seconds = optional("seconds", term_doc(names, duration))
-            yield from called(names.word("wait"), *seconds, indent=indent)
-        case ast.Say(message=message):
-            yield from condition_call(names, "say", message, indent)
-        case ast.Abort(message=message):
-            yield from condition_call(names, "abort", message, indent)
-        case _:
-            raise TypeError(f"{statement!r} is no statement")
+            return called(names.word("wait"), keyword("seconds", term_doc(names, duration)), indent=indent)
+        case ast.Say(message=message) | ast.Abort(message=message):
+            return word_call(names, type(statement).__name__.lower(), message, indent)
+    raise TypeError(f"{statement!r} is no statement")
 
 
 def _conditional(names: Names, statement: ast.If, indent: int) -> Iterator[str]:
@@ -116,9 +114,3 @@ def _handler(names: Names, handler: ast.On, indent: int) -> Iterator[str]:
 def _with(names: Names, head: Doc, body: ast.Block, indent: int) -> Iterator[str]:
     yield from with_head(head, indent)
     yield from block(names, body, indent + INDENT)
-
-
-def _search(names: Names, search: ast.Search) -> Doc:
-    mode = () if search.mode is None else (quoted(search.mode),)
-    steps, seconds = maybe(names, search.at_most), maybe(names, search.within)
-    return call_doc(names.word("search"), *mode, *optional("at_most", steps), *optional("within", seconds))

@@ -8,6 +8,7 @@ from typing import Any
 
 from golc.diagnostics import Span
 from golc.embed import words
+from golc.embed.errors import meaningless
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.lines import Lines
 from golc.embed.terms import Term
@@ -37,6 +38,7 @@ class Actions(Lines):
         if isinstance(node, ast.For):
             yield from self._for_all(node)
             return
+        self._no_method(node)
         call, word = self.call(node, "poss causes senses cost", IN_ACTIONS)
         span = self.span(node)
         if word is words.causes:
@@ -45,6 +47,15 @@ class Actions(Lines):
             (value,) = self.arguments(call, 1)
             made: Any = {"poss": tree.Precondition, "senses": tree.Senses, "cost": tree.Cost}[word.name]
             yield made(self.expr(value), span=span)
+
+    def _no_method(self, node: ast.stmt) -> None:
+        """Raise ``Refused`` for a method that changes sets or lists in Python, as in ``seen.add(n)``."""
+        match node:
+            case ast.Expr(value=ast.Call(func=ast.Attribute(value=owner, attr=name) as called)):
+                if isinstance(self.python(owner), Term):
+                    fluent = self.span(owner).text
+                    help_ = f"write `causes({fluent}, {fluent} + …)`, or `-` to take away"
+                    raise meaningless(f"a term has no method `{name}`", self.span(called), help_)
 
     def _for_all(self, node: ast.For) -> Iterator[tree.Clause]:
         """``for x in t: causes(…)``: an effect for every value; a loop of Python is written out."""

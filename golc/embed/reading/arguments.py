@@ -43,16 +43,17 @@ class Arguments(ABC):
 
     def arguments(self, node: ast.Call, count: int, named: Sequence[str] = ()) -> list[ast.expr]:
         """The arguments by place of a call of a word, which are ``count``; those by name are among ``named``."""
+        known = ", ".join(f"`{each}=`" for each in named)
         for word in node.keywords:
             if word.arg not in named:
-                known = ", ".join(f"`{each}=`" for each in named)
                 help_ = f"it takes {known}" if known else "it takes arguments by place only"
                 raise refused(Code.ARITY, f"`{ast.unparse(node.func)}` takes no `{word.arg}=`", self.span(word), help_)
         given = self.spread(node.args)
         if len(given) != count:
             takes = f"{count} argument{'s' * (count != 1)}" if count else "no arguments"
             message = f"`{ast.unparse(node.func)}` takes {takes} by place, not {len(given)}"
-            raise refused(Code.ARITY, message, self.span(node))
+            by_name = f"it takes {known}" if known and len(given) > count else None
+            raise refused(Code.ARITY, message, self.span(node), by_name)
         return given
 
     def every_argument(self, node: ast.Call, named: Sequence[str] = ()) -> list[ast.expr]:

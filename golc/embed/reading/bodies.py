@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
@@ -33,10 +34,10 @@ class Bodies(Expressions):
                 raise meaningless(f"`{self.function.node.name}` returns nothing", self.function.name_span, help_)
         for node, after in pairwise(body):
             if isinstance(node, ast.Return):
-                raise meaningless("what follows a `return` is never reached", self._head(after))
+                raise meaningless("what follows a `return` is never reached", self.head(after))
         first = next(node for node in body if not isinstance(node, ast.Return))
         help_ = "write one `return` with the whole term; give parts of it names with `@theory.define`"
-        raise meaningless("the body of this function is one `return`", self._head(first), help_)
+        raise meaningless("the body of this function is one `return`", self.head(first), help_)
 
     def each(self, nodes: Iterable[ast.stmt], translate: Callable[[ast.stmt], Iterable[T]]) -> tuple[T, ...]:
         """What every statement becomes. Raises ``Refused`` with all findings at the end."""
@@ -64,14 +65,20 @@ class Bodies(Expressions):
         # The order of a set changes from run to run.
         ordered = sorted(values, key=repr) if isinstance(values, (set, frozenset)) else values
         for value in elements(ordered, self.span(node.iter)):
-            fixed, bound = dict(self.function.fixed), set(self.bound)
-            try:
-                self._assign(node.target, value)
+            with self._round(node.target, value):
                 yield from self.each(node.body, translate)
-            finally:
-                self.function.fixed.clear()
-                self.function.fixed.update(fixed)
-                self.bound |= bound
+
+    @contextlib.contextmanager
+    def _round(self, target: ast.expr, value: object) -> Iterator[None]:
+        """One round of a loop of Python: while it lasts its variables are constants, and hide what has their names."""
+        fixed, bound = dict(self.function.fixed), set(self.bound)
+        try:
+            self._assign(target, value)
+            yield
+        finally:
+            self.function.fixed.clear()
+            self.function.fixed.update(fixed)
+            self.bound |= bound
 
     def listed(self, node: ast.expr) -> object:
         """What a loop of Python goes through: a value of Python, or a list that is written out."""
@@ -104,9 +111,9 @@ class Bodies(Expressions):
     def refuse(self, node: ast.stmt) -> Refused:
         """What to say of a statement that has no meaning where it stands."""
         message, help_ = STATEMENTS.get(type(node), ("this has no meaning here", None))
-        return meaningless(message, self._head(node), help_)
+        return meaningless(message, self.head(node), help_)
 
-    def _head(self, node: ast.stmt) -> Span:
+    def head(self, node: ast.stmt) -> Span:
         """The first line of a statement."""
         span = self.span(node)
         line = span.text.partition("\n")[0].rstrip()

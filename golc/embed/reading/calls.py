@@ -33,6 +33,7 @@ _FUNCTIONS: Mapping[object, str] = {
     words.before: "before",
     words.poss: "poss",
 }
+_EMPTY: Mapping[object, Any] = {builtins.set: tree.SetLiteral, builtins.list: tree.ListLiteral}
 _CONNECTIVES: Mapping[object, Any] = {words.implies: "implies", words.iff: "iff"}
 
 
@@ -57,8 +58,8 @@ class Calls(Binders):
         called = self.python(node.func)
         if isinstance(called, Named):
             return self._apply(node, called, span)
-        if called in (builtins.set, builtins.list) and not node.args and not node.keywords:
-            return tree.SetLiteral((), span=span) if called is builtins.set else tree.ListLiteral((), span=span)
+        if (empty := _meant(_EMPTY, called)) and not node.args and not node.keywords:
+            return empty((), span=span)  # type: ignore[no-any-return]
         kind = _meant(_QUANTIFIERS, called)
         if kind is not None and len(node.args) == 1 and isinstance(node.args[0], ast.GeneratorExp):
             self.arguments(node, 1)
@@ -86,13 +87,20 @@ class Calls(Binders):
         span = self.span(node.func)
         if called is words.count:
             return meaningless("`count` needs `… for n in station` here", span, "write `count(φ for n in station)`")
+        if called is words.exists or called is words.forall:
+            instead = "any" if called is words.exists else "all"
+            message = f"`{called.name}(…)` is for Python outside translated functions"
+            return meaningless(message, span, f"write `{instead}(φ for n in station)`")
         if isinstance(called, Word):
             return meaningless(f"`{called.name}` stands in the wrong place", span, f"it belongs in {called.place}")
         name = getattr(called, "__name__", None)
-        if called in (builtins.any, builtins.all, builtins.sum, builtins.min, builtins.max):
+        if _meant(_QUANTIFIERS, called):
             return meaningless(f"`{name}` needs `… for n in station` here", span, f"write `{name}(… for n in station)`")
         if isinstance(name, str):
             return meaningless(f"`{name}` has no meaning in a theory", span)
+        if isinstance(node.func, ast.Attribute):
+            help_ = "terms have `in`, `+`, `-`, `len(x)`, `first(x)`, `rest(x)`, `x[i]` and comprehensions"
+            return meaningless(f"a term has no method `{node.func.attr}`", span, help_)
         return meaningless("this cannot be called", span)
 
     def _apply(self, node: ast.Call, called: Named, span: Span) -> tree.Apply:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from typing import TypeAlias
 
+from golc.embed.errors import meaningless
 from golc.embed.reading.actions import Actions
 from golc.embed.reading.axioms import Axioms
 from golc.embed.reading.devices import Devices
@@ -38,6 +39,9 @@ def static(t: Translator, name: tree.Ident) -> tree.Static:
 
 
 def extern(t: Translator, name: tree.Ident, file: str) -> tree.Extern:
+    if body := t.function.body():
+        message = f"an extern has no body: the function stands in `{file}`"
+        raise meaningless(message, t.head(body[0]), "write `...` here; what is to be translated is a static")
     return tree.Extern(name, t.parameters(), t.result(), file, span=t.function.span)
 
 

@@ -11,7 +11,7 @@ from golc.embed.asked import translating
 from golc.embed.cures import cure
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
-from golc.embed.places import code_span, frame_span
+from golc.embed.places import code_span, innermost, source_of
 from golc.embed.reading.functions import Function
 from golc.embed.terms import Term, variable
 from golc.embed.types import TypeHandle, TypeObject, enum, interval, is_built_in, optional, symbols, symbols_of, union
@@ -41,6 +41,11 @@ def _holds_terms(value: object) -> bool:
     return isinstance(value, (Term, Word, Value, TypeObject)) or _is_ours(value) or is_built_in(value)
 
 
+def _is_part_of_ours(base: object) -> bool:
+    """Whether the language has a meaning for something, so that an attribute or element of it is not Python's."""
+    return base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or is_built_in(base)
+
+
 class Evaluator:
     """Evaluates what is Python's own in one function; ``bound`` tells which names are variables of the language."""
 
@@ -61,28 +66,21 @@ class Evaluator:
         match node:
             case ast.Name():
                 return self.name(node)
-            case ast.Attribute(value=owner) | ast.Subscript(value=owner):
-                base = self(owner)
-                if isinstance(base, TypeHandle) and isinstance(node, ast.Attribute):
-                    return self._symbol(base, node)
-                ours = base is NOT_PYTHON or isinstance(base, (Term, Word, TypeHandle)) or is_built_in(base)
-                if isinstance(node, ast.Subscript) and isinstance(base, (list, tuple, dict)):
-                    self._check_index(node, base.values() if isinstance(base, dict) else base)
-                return NOT_PYTHON if ours else self._run(node)
-            case ast.Call(func=function):
-                called = self(function)
-                ours = called is NOT_PYTHON or isinstance(called, (Term, Word, Value))
-                if ours or (_is_ours(called) and not self._constant(node)):
-                    return NOT_PYTHON
-                value = None if called is print else self._run(node)
-                if value is None and isinstance(called, BuiltinFunctionType):
-                    message = f"`{called.__name__}` gives no value, and what it does is not a part of the theory"
-                    help_ = 'a program writes `say(f"…")`' if called is print else None
-                    raise meaningless(message, self.function.place(node), help_)
-                return value
+            case ast.Attribute():
+                return self._attribute(node)
+            case ast.Subscript():
+                return self._subscript(node)
+            case ast.Call():
+                return self._called(node)
             case ast.Constant() | ast.Lambda():
                 return NOT_PYTHON
         return self._run(node) if self._constant(node) else NOT_PYTHON
+
+    def _attribute(self, node: ast.Attribute) -> object:
+        base = self(node.value)
+        if isinstance(base, TypeHandle):
+            return self._symbol(base, node)
+        return NOT_PYTHON if _is_part_of_ours(base) else self._run(node)
 
     def _symbol(self, base: TypeHandle, node: ast.Attribute) -> object:
         try:
@@ -95,6 +93,12 @@ class Evaluator:
             raise refused(Code.UNKNOWN_NAME, message, self.function.place(node), did_you_mean(node.attr, names))
         return names[node.attr]
 
+    def _subscript(self, node: ast.Subscript) -> object:
+        base = self(node.value)
+        if isinstance(base, (list, tuple, dict)):
+            self._check_index(node, base.values() if isinstance(base, dict) else base)
+        return NOT_PYTHON if _is_part_of_ours(base) else self._run(node)
+
     def _check_index(self, node: ast.Subscript, values: Iterable[object]) -> None:
         """Raise ``Refused`` for the index of a Python list or dictionary that is not known yet."""
         if not any(is_unsettled(self.name(each)) for each in free_names(node.slice)):
@@ -104,6 +108,18 @@ class Evaluator:
             help_ = "go through the list itself, `for x in …`, or declare one fluent with a parameter for all of it"
         message = "Python looks a term up at once, before there is a situation"
         raise meaningless(message, self.function.place(node), help_)
+
+    def _called(self, node: ast.Call) -> object:
+        called = self(node.func)
+        ours = called is NOT_PYTHON or isinstance(called, (Term, Word, Value))
+        if ours or (_is_ours(called) and not self._constant(node)):
+            return NOT_PYTHON
+        value = None if called is print else self._run(node)
+        if value is None and isinstance(called, BuiltinFunctionType):
+            message = f"`{called.__name__}` gives no value, and what it does is not a part of the theory"
+            help_ = 'a program writes `say(f"…")`' if called is print else None
+            raise meaningless(message, self.function.place(node), help_)
+        return value
 
     def _constant(self, node: ast.expr) -> bool:
         """Whether there are names in an expression that mean nothing in the language, and all in it is Python's."""
@@ -146,16 +162,13 @@ class Evaluator:
 
 def _where(error: BaseException) -> tuple[Label, ...]:
     """Where in a called function an error was raised."""
-    traceback = error.__traceback__
-    while traceback is not None and traceback.tb_next is not None:
-        traceback = traceback.tb_next
+    traceback = innermost(error)
     if traceback is None or traceback.tb_frame.f_code.co_name == "<module>":
         return ()
-    frame = traceback.tb_frame
-    if not frame_span(frame).source.text:
-        return ()
-    source = frame_span(frame).source
-    return (Label(code_span(source, frame.f_code, traceback.tb_lasti, traceback.tb_lineno), "raised here"),)
+    code = traceback.tb_frame.f_code
+    source = source_of(code.co_filename)
+    place = code_span(source, code, traceback.tb_lasti, traceback.tb_lineno)
+    return (Label(place, "raised here"),) if source.text else ()
 
 
 def free_names(node: ast.expr) -> Iterator[ast.Name]:

@@ -15,7 +15,7 @@ from golc.embed.reading.binders import chain
 from golc.embed.reading.calls import Calls
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.refusals import EXPRESSIONS, OPERATORS
-from golc.embed.terms import Named, Variable, plain_names
+from golc.embed.terms import PROGRAMS, Named, Variable, plain_names
 from golc.embed.types import (
     BUILT_IN,
     TypeForm,
@@ -161,7 +161,7 @@ class Expressions(Calls):
 
     def _check_names(self, value: object, found: tree.Expr, span: Span) -> None:
         """Raise ``Refused`` if something declared would be taken for a variable that has its name in the theory."""
-        if isinstance(value, Named) and value.kind in ("variable", "action", "exogenous action", "procedure"):
+        if isinstance(value, Named) and value.kind in ("variable", *PROGRAMS):
             return
         taken = {golc_name(name) for name in self.bound}
         hidden = next((name for name in plain_names(found) if name in taken and not isinstance(name, Variable)), None)

@@ -33,9 +33,9 @@ class Lines(Bodies):
                 return node.value, called
             if isinstance(called, FunctionType):
                 help_ = f"write the lines of `{called.__name__}` here"
-                raise meaningless("a function of Python does nothing in a declaration", self._head(node), help_)
+                raise meaningless("a function of Python does nothing in a declaration", self.head(node), help_)
         help_ = "write " + ", ".join(f"`{name}(…)`" for name in allowed.split())
-        raise meaningless("this line has no meaning here", self._head(node), (meant or {}).get(type(node), help_))
+        raise meaningless("this line has no meaning here", self.head(node), (meant or {}).get(type(node), help_))
 
     def constant(self, node: ast.expr) -> Any:
         """A constant argument: an integer, a truth value, ``None``, a symbol."""

@@ -13,7 +13,7 @@ from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name, new_name
 from golc.embed.reading.bodies import Bodies
 from golc.embed.reading.evaluate import NOT_PYTHON
-from golc.embed.terms import Named, Term
+from golc.embed.terms import PROGRAMS, Named, Term
 from golc.syntax import tree
 
 _BRANCHING: Mapping[words.Word, Any] = {
@@ -38,7 +38,7 @@ class Programs(Bodies):
             if self._is_otherwise(node):
                 before = previous.get(id(node))
                 if before is None or self._with_word(before) is not words.within:
-                    raise meaningless("`otherwise` follows directly on a `within`", self._head(node))
+                    raise meaningless("`otherwise` follows directly on a `within`", self.head(node))
                 return
             after = following[id(node)]
             yield from self.statement(node, after if after is not None and self._is_otherwise(after) else None)
@@ -82,6 +82,9 @@ class Programs(Bodies):
         if isinstance(word, words.Word) and word in _SPOKEN:
             (text,) = self.arguments(node, 1)
             return _SPOKEN[word](self.message(text), span=span)  # type: ignore[no-any-return]
+        if isinstance(word, words.Operator):
+            help_ = "write `test(φ)` to wait for what holds" + (", and `poss` in an action" * (word is words.poss))
+            raise meaningless("this does nothing", span, help_)
         if isinstance(word, FunctionType) and self.python(node) is None:
             help_ = f"put `@theory.proc` above `def {word.__name__}`, or write its lines here"
             raise meaningless("a function of Python does nothing in a program", span, help_)
@@ -145,8 +148,14 @@ class Programs(Bodies):
     def _is_pythons(self, node: ast.expr) -> bool:
         """Whether a loop goes through something of Python that is no list of values of the language."""
         value = self.listed(node)
-        if isinstance(value, (list, tuple, range, set, frozenset)):
-            return not any(each is NOT_PYTHON for each in value) and any(_is_no_value(each) for each in value)
+        of_values = isinstance(value, (list, tuple, range, set, frozenset)) and not any(map(_is_no_value, value))
+        return self._is_known(node) and not of_values
+
+    def _is_known(self, node: ast.expr) -> bool:
+        """Whether Python knows what a loop goes through."""
+        value = self.listed(node)
+        if isinstance(value, (list, tuple)):
+            return not any(each is NOT_PYTHON for each in value)
         return value is not NOT_PYTHON and not isinstance(value, Term)
 
     def _ranges(self, node: ast.For, word: words.Word | None) -> tuple[tuple[tree.Binder, ...], ast.expr | None]:
@@ -189,7 +198,8 @@ class Programs(Bodies):
         if word is words.let:
             return self._let(node, call, item.optional_vars, span)
         if item.optional_vars is not None:
-            raise meaningless(f"`{word.name}` gives nothing a name", self.span(item.optional_vars))
+            help_ = "write `for x in pick(station):`" if word is words.pick else "`with let(e) as x:` does"
+            raise meaningless(f"`{word.name}` gives nothing a name", self.span(item.optional_vars), help_)
         if word in _BRANCHING:
             return _BRANCHING[word](self._branches(node, call, word), span=span)  # type: ignore[no-any-return]
         if word is words.interrupts:
@@ -214,7 +224,8 @@ class Programs(Bodies):
             (duration,) = self.arguments(call, 1)
             rest = self.block(otherwise.body) if isinstance(otherwise, ast.With) else None
             return tree.Within(self.expr(duration), self.block(node.body), rest, span=span)
-        raise meaningless(f"`{word.name}` stands in the wrong place", self.span(call), f"it belongs in {word.place}")
+        help_ = "write `for x in pick(station):`" if word is words.pick else f"it belongs in {word.place}"
+        raise meaningless(f"`{word.name}` stands in the wrong place", self.span(call), help_)
 
     def _given(self, call: ast.Call, name: str) -> tree.Expr | None:
         value = self.keyword(call, name)
@@ -246,12 +257,12 @@ class Programs(Bodies):
         self.arguments(call, 0)
 
         def branch(part: ast.stmt) -> Iterator[tree.Block]:
-            if isinstance(part, ast.For) and self._is_pythons(part.iter):
+            if isinstance(part, ast.For) and self._is_known(part.iter):
                 yield from self.unrolled(part, branch)
                 return
             if not isinstance(part, ast.With) or self._with_word(part) is not words.branch:
                 help_ = f"write `with branch():` around each part of `{word.name}`"
-                raise meaningless(f"only branches stand in `{word.name}`", self._head(part), help_)
+                raise meaningless(f"only branches stand in `{word.name}`", self.head(part), help_)
             yield self.block(part.body)
 
         branches = self.each(node.body, branch)
@@ -272,15 +283,15 @@ class Programs(Bodies):
                 raise meaningless("`on` needs a condition", self.span(node.iter), "write `on(station, where=φ)`")
             with self.scope([name.id for name in self._names(node.target)]):
                 yield tree.On(binders, self.expr(where), self.block(node.body), span=span)
-        elif isinstance(node, ast.For) and self._is_pythons(node.iter):
+        elif isinstance(node, ast.For) and self._is_known(node.iter):
             yield from self.unrolled(node, self._handler)
         else:
             help_ = "write `with on(φ):` or `for n in on(station, where=φ):`"
-            raise meaningless("only `on` stands in `interrupts`", self._head(node), help_)
+            raise meaningless("only `on` stands in `interrupts`", self.head(node), help_)
 
 
 def _is_no_value(value: object) -> bool:
     """Whether something cannot be an element of a list of the language: an action, a tuple, a function."""
     if isinstance(value, Named):
-        return value.kind in ("action", "exogenous action", "procedure")
+        return value.kind in PROGRAMS
     return not (value is None or isinstance(value, (bool, int, float, str, Term)))

@@ -14,6 +14,7 @@ from golc.runtime.rcxsim.theory.programs import Programs
 from golc.runtime.rcxsim.theory.world import TheoryWorld
 from golc.runtime.rcxsim.trace import Trace
 from golc.runtime.sources.schedule import Player, Schedule
+from golc.theory.forms import add_a_brick
 from golc.theory.theory import BasicActionTheory
 
 
@@ -47,7 +48,7 @@ def bricks(theory: BasicActionTheory) -> list[ActionMap]:
             Code.NO_DEVICE,
             f"domain {theory.name} declares no brick to simulate",
             Span(theory.source, 0, 0),
-            help='add a block `device rcx "behaviours.nqc":` with the actions that the brick does',
+            help=add_a_brick(Span(theory.source, 0, 0)),
         )
     if findings.has_errors:
         raise UserError(*findings.diagnostics)

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from golc.embed import Theory, after, bind, branch, causes, cost, each, enum, expect, given, interval, on, poss, run
 from golc.embed import choose, count, guard, interrupts, known, let, one_of, otherwise, pick, say, search, senses
-from golc.embed import optional, setting, star, test, together, union, unknown, until, var, wait, within
+from golc.embed import exists, forall, optional, setting, star, test, together, union, unknown, until, var, wait, within
 
 theory = Theory("mistakes")
 station = theory.type("station", interval(1, 6))
@@ -150,6 +150,58 @@ def d_enum(n: enum()):
 #! 15+6 GL143 an enumeration has at least one element
 #! help: write `enum("red", "green")`
     return True
+
+
+@theory.define
+def d_exists():
+    return exists(station, lambda n: free(n)) and forall(station, lambda n: free(n))
+#! 12+6 GL143 `exists(…)` is for Python outside translated functions
+#! help: write `any(φ for n in station)`
+
+
+@theory.define
+def d_forall():
+    return forall(station, lambda n: free(n))
+#! 12+6 GL143 `forall(…)` is for Python outside translated functions
+#! help: write `all(φ for n in station)`
+
+
+@theory.define
+#! 2+13 GL143 only a function written with `def` can be translated
+#! help: write the decorator with `@` right above the `def` of what it declares, without `async`
+async def d_async():
+    return location == 1
+
+
+@theory.action
+#! 2+13 GL143 only a function written with `def` can be translated
+#! help: of two decorators the upper one gets what the lower one makes, which is no function
+@theory.action
+#! 2+13 GL143 a second decorator would not be seen: the function is translated, not run
+#! help: leave one of them out
+def d_twice():
+    pass
+
+
+@theory.define
+def d_method():
+    return location.bit_length() == 2
+#! 12+19 GL143 a term has no method `bit_length`
+#! help: terms have `in`, `+`, `-`, `len(x)`, `first(x)`, `rest(x)`, `x[i]` and comprehensions
+
+
+@theory.define
+def d_sorted():
+    return sorted(location) == [1]
+#! 12+16 GL143 Python cannot go through a term, whose value depends on the situation
+#! help: a loop or comprehension in a translated function goes through it: `for x in …`
+
+
+@theory.extern(file="helpers.py")
+def e_body(n: station) -> int:
+    return 2 * n
+#! 5+12 GL143 an extern has no body: the function stands in `helpers.py`
+#! help: write `...` here; what is to be translated is a static
 
 
 @theory.define
@@ -509,6 +561,9 @@ def go(n: station):
     causes(location + 1, n)
 #! 12+12 GL143 this is no action, procedure or fluent
 #! help: write the name of an action or a fluent, with its arguments
+    location.append(n)
+#! 5+15 GL143 a term has no method `append`
+#! help: write `causes(location, location + …)`, or `-` to take away
     causes(location, unknown)
     causes(location, one_of(1, 2))
 #! 22+12 GL015 `one_of` takes 1 argument by place, not 2
@@ -564,6 +619,27 @@ def control(n: station):
     go
 #! 5+2 GL143 this does nothing
 #! help: write `go()`
+    poss(free(n))
+#! 5+13 GL143 this does nothing
+#! help: write `test(φ)` to wait for what holds, and `poss` in an action
+    known(location)
+#! 5+15 GL143 this does nothing
+#! help: write `test(φ)` to wait for what holds
+    with pick(station) as k:
+#! 27+1 GL143 `pick` gives nothing a name
+#! help: write `for x in pick(station):`
+        go(k)
+    with pick(station):
+#! 10+13 GL143 `pick` stands in the wrong place
+#! help: write `for x in pick(station):`
+        go(n)
+    wait(location == 3)
+#! 5+19 GL015 `wait` takes no arguments by place, not 1
+#! help: it takes `until=`, `seconds=`
+    with choose():
+        for k in [1, location]:
+            with branch():
+                go(k)
     moves()
 #! 5+7 GL143 a function of Python does nothing in a program
 #! help: put `@theory.proc` above `def moves`, or write its lines here
@@ -632,6 +708,7 @@ def control(n: station):
         go(n)
     with star() as s:
 #! 20+1 GL143 `star` gives nothing a name
+#! help: `with let(e) as x:` does
         go(n)
     with let(3):
 #! 10+6 GL143 `let` gives one name
@@ -685,6 +762,7 @@ def control(n: station):
         go(m)
     wait(3)
 #! 5+7 GL015 `wait` takes no arguments by place, not 1
+#! help: it takes `until=`, `seconds=`
     wait(until=free(n), seconds=3)
 #! 5+30 GL143 a `wait` is for a condition or for a time
 #! help: write `with within(seconds):` around it
@@ -796,6 +874,7 @@ def brick():
 #! help: assign it, declare it with the theory, or import it from `golc.embed`
     setting("poll", 3, seconds=4)
 #! 5+29 GL015 `setting` takes 1 argument by place, not 2
+#! help: it takes `seconds=`
     go(3)
 #! 5+5 GL143 this line has no meaning here
 #! help: write `bind(…)`, `setting(…)`
@@ -840,3 +919,12 @@ def no_alternatives(n: union()):
 def two_bases(n: optional(station, phase)):
 #! 18+24 GL015 `optional` takes 1 argument by place, not 2
     return True
+
+
+AT_THREE = location == 3
+
+
+@theory.define
+def called_formula():
+    return AT_THREE()
+#! 12+8 GL143 this cannot be called

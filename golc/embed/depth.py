@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import fields
 
 from golc.diagnostics import Code
 from golc.embed.errors import refused
@@ -29,22 +28,17 @@ _LEVELS = (
 """The nodes that are a level of nesting, as is an ``Apply`` with arguments."""
 
 
-def check_depth(declaration: tree.Declaration) -> None:
-    """Raise ``Refused`` for a declaration that is nested too deeply; a stack instead of recursion."""
+def nodes(declaration: tree.Declaration) -> Iterator[tree.Node]:
+    """Every node of a declaration; a stack instead of recursion. Raises ``Refused`` if it is nested too deeply."""
     waiting: list[tuple[object, int]] = [(declaration, 0)]
     while waiting:
-        node, depth = waiting.pop()
-        if isinstance(node, tuple):
-            waiting += [(part, depth) for part in node]
-        elif isinstance(node, tree.Node):
-            depth += isinstance(node, _LEVELS) or (isinstance(node, tree.Apply) and bool(node.args))
+        item, depth = waiting.pop()
+        if isinstance(item, tuple):
+            waiting += [(part, depth) for part in item]
+        elif isinstance(item, tree.Node):
+            depth += isinstance(item, _LEVELS) or (isinstance(item, tree.Apply) and bool(item.args))
             if depth > DEEPEST:
                 help_ = "give a part of it a name with `@theory.define`, or make a part of the program a procedure"
                 raise refused(Code.NESTING, f"nesting is deeper than {DEEPEST} levels", declaration.span, help_)
-            waiting += [(part, depth) for part in _parts(node)]
-
-
-def _parts(node: tree.Node) -> Iterator[object]:
-    for field in fields(node):
-        if field.name != "span":
-            yield getattr(node, field.name)
+            yield item
+            waiting += [(part, depth) for part in vars(item).values()]
