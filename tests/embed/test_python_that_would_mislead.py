@@ -387,7 +387,7 @@ def test_a_file_may_go_into_another_folder(text_of: Text, tmp_path: Path) -> Non
         ("power", "compare it: `power == …`"),
         ("not 3", "a truth value is `True` or `False`"),
         ("not {at}", "compare it: `{at} != set()`; ask: `x in {at}`; `+` joins it with another"),
-        ("sum(light(r) == 1 for r in room) == 2", "write `count(light(r) == 1 for …)` for how often it is true"),
+        ("sum(light(r) == 1 for r in room) == 2", "`count(φ for n in station)` is how often something is true"),
     ],
 )
 def test_help_with_types_speaks_python(tmp_path: Path, condition: str, help_: str) -> None:
