@@ -405,6 +405,21 @@ def test_a_star_spreads_a_list_of_python(text_of: Text) -> None:
     assert "define d := at in {2, 3, 6}\n" in text
 
 
+def test_any_mapping_of_python_is_a_table(text_of: Text) -> None:
+    text = text_of(
+        """
+        from types import MappingProxyType
+        from golc.embed import Theory, interval
+
+        theory = Theory("d")
+        floor = theory.type("floor", interval(1, 2))
+        theory.static("size", int, MappingProxyType({1: 5, 2: 7}), parameters={"n": floor})
+        """
+    )
+
+    assert text.endswith("static size(n: floor): int = {1: 5, 2: 7}\n")
+
+
 def test_a_loop_through_pairs_is_written_out(text_of: Text) -> None:
     text = text_of(
         """
