@@ -6,7 +6,7 @@ from golc.diagnostics import Code, Span
 from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context
 from golc.theory.fitting import BROKEN, collection, may_be, overlap, strip_optional
-from golc.theory.forms import describe, type_text, word
+from golc.theory.forms import describe, joined_tightly, type_text, word
 from golc.theory.terms import (
     Comprehension,
     DefinedTerm,
@@ -140,7 +140,8 @@ def cure(found: Term, needed: Type) -> str | None:
         text = shown(found)
         return f"compare it: `{text} != {empty}`; ask: `x in {text}`; `+` joins it with another"
     if needed == BOOL:
-        return f"compare it: `{shown(found)} {place.either('=', '==')} …`"
+        compared = f"{shown(found)} {place.either('=', '==')} …"
+        return f"compare it: `{f'({compared})' if joined_tightly(place) else compared}`"
     if have and want and have.kind != want.kind and not have.element.kinds:
         return f"the empty {want.kind} is `{place.either('{}', 'set()') if want.kind == 'set' else '[]'}`"
     if have and want and have.kind != want.kind:
@@ -161,7 +162,8 @@ def _without_quotes(found: Term, needed: Type) -> str:
         return "values of an enumeration stand without quotes"
     if not isinstance(found, Literal):
         return "a string of Python is no symbol"
-    symbol = f"{needed}.{found.value}" if str(needed).isidentifier() else f'symbols("{found.value}")'
+    owner = str(strip_optional(needed))
+    symbol = f"{owner}.{found.value}" if owner.isidentifier() else f'symbols("{found.value}")'
     return f"a string of Python is no symbol: write `{symbol}`"
 
 

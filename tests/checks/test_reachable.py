@@ -170,6 +170,18 @@ def test_an_integer_without_end_that_is_an_argument_of_a_fluent(tmp_path: Path) 
     ]
 
 
+def test_nothing_is_reached_through_a_state_in_which_an_invariant_is_false(tmp_path: Path) -> None:
+    text = "domain trial\n\nfluent x: 0..9 = 0\n\ninvariant low: x < 3\n\naction inc:\n    causes x := x + 1\n"
+    done = examined(tmp_path, text)
+    assert str(done.scope) == "in all 3 states that can be reached"
+    assert [(finding.message, finding.notes) for finding in done.findings] == [
+        (
+            "`inc` may break invariant `low`",
+            ("for example when x = 2 and `inc` is done", "this is reached by `inc`, `inc`"),
+        )
+    ]
+
+
 def test_a_few_of_many_arguments_are_tried(tmp_path: Path) -> None:
     text = "domain trial\n\nfluent y: 7..9000 = 8000\n\nexog put(n: 7..9000):\n    causes y := n\n"
     done = examined(tmp_path, f"{text}\naction drop:\n    causes y := y - 2\n")

@@ -197,6 +197,7 @@ def test_the_traceback_of_foreign_code_needs_v(start: Start) -> None:
     [
         ("type t = 1..3\nfluent f(a: t): t = 2", ["every f = 2"]),
         ("type t = 1..3\nfluent f(a: t): int = a // 3", ["f(1) = 0, f(2) = 0, f(3) = 1"]),
+        ("type t = 1..4\nfluent f(a: t): int = a // 4", ["f(1) = 0, f(2) = 0, f(3) = 0, f(4) = 1"]),
         ("type t = 1..5\nfluent f(a: t): int = a // 5", ["f(5) = 1, all other f = 0"]),
         ("type t = 1..2\nfluent f(a: t, b: t) = a < b", ["f holds for (1, 2)"]),
         ("fluent x: int = 1\nfluent y: bool = true", ["x = 1, y = true"]),

@@ -87,6 +87,10 @@ class Calls(Binders):
         span = self.span(node.func)
         if called is words.count:
             return meaningless("`count` needs `… for n in station` here", span, "write `count(φ for n in station)`")
+        if called is words.exists or called is words.forall:
+            instead = "any" if called is words.exists else "all"
+            message = f"`{called.name}(…)` is for Python outside translated functions"
+            return meaningless(message, span, f"write `{instead}(φ for n in station)`")
         if isinstance(called, Word):
             return meaningless(f"`{called.name}` stands in the wrong place", span, f"it belongs in {called.place}")
         name = getattr(called, "__name__", None)

@@ -17,6 +17,7 @@ from golc.diagnostics import Code, Label, Source, Span
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import caller, calling_frame, offset, source_of, span_of, tree_of
+from golc.embed.values import Meaningful
 from golc.theory.suggest import did_you_mean
 
 ABSENT = object()
@@ -153,7 +154,10 @@ def translated(function: object) -> Function:
         message = "the name of what is declared is that of its function, or given by `name=`"
         raise meaningless(message, span, f'write `name="{function}"`')
     if not isinstance(function, FunctionType):
-        raise meaningless("only a function written with `def` can be translated", span)
+        help_ = "write the decorator with `@` right above the `def` of what it declares"
+        if isinstance(function, Meaningful):
+            help_ = "of two decorators the upper one gets what the lower one makes, which is no function"
+        raise meaningless("only a function written with `def` can be translated", span, help_)
     code = function.__code__
     source = source_of(code.co_filename)
     if not source.text:
@@ -161,7 +165,8 @@ def translated(function: object) -> Function:
         raise meaningless(f"the source of `{function.__name__}` is not to be found", span, help_)
     node = _definition(source, code)
     if node is None:
-        raise meaningless("only a function written with `def` can be translated", span)
+        help_ = "write the decorator with `@` right above the `def` of what it declares, without `async`"
+        raise meaningless("only a function written with `def` can be translated", span, help_)
     made = Function(function, source, node, calling_frame())
     _check_head(made)
     made.fixed.update(_defaults(made))
@@ -196,7 +201,8 @@ def _check_head(function: Function) -> None:
             raise meaningless(f"`{sign}{arg.arg}` is no parameter of the language", function.place(arg), help_)
     if len(function.node.decorator_list) > 1:
         second = function.place(function.node.decorator_list[1])
-        raise meaningless("a second decorator would not be seen: the function is translated, not run", second)
+        message = "a second decorator would not be seen: the function is translated, not run"
+        raise meaningless(message, second, "leave one of them out")
 
 
 def _defaults(function: Function) -> dict[str, object]:

@@ -3,7 +3,7 @@ from __future__ import annotations
 
 from golc.embed import Theory, after, bind, branch, causes, cost, each, enum, expect, given, interval, on, poss, run
 from golc.embed import choose, count, guard, interrupts, known, let, one_of, otherwise, pick, say, search, senses
-from golc.embed import optional, setting, star, test, together, union, unknown, until, var, wait, within
+from golc.embed import exists, forall, optional, setting, star, test, together, union, unknown, until, var, wait, within
 
 theory = Theory("mistakes")
 station = theory.type("station", interval(1, 6))
@@ -150,6 +150,37 @@ def d_enum(n: enum()):
 #! 15+6 GL143 an enumeration has at least one element
 #! help: write `enum("red", "green")`
     return True
+
+
+@theory.define
+def d_exists():
+    return exists(station, lambda n: free(n)) and forall(station, lambda n: free(n))
+#! 12+6 GL143 `exists(…)` is for Python outside translated functions
+#! help: write `any(φ for n in station)`
+
+
+@theory.define
+def d_forall():
+    return forall(station, lambda n: free(n))
+#! 12+6 GL143 `forall(…)` is for Python outside translated functions
+#! help: write `all(φ for n in station)`
+
+
+@theory.define
+#! 2+13 GL143 only a function written with `def` can be translated
+#! help: write the decorator with `@` right above the `def` of what it declares, without `async`
+async def d_async():
+    return location == 1
+
+
+@theory.action
+#! 2+13 GL143 only a function written with `def` can be translated
+#! help: of two decorators the upper one gets what the lower one makes, which is no function
+@theory.action
+#! 2+13 GL143 a second decorator would not be seen: the function is translated, not run
+#! help: leave one of them out
+def d_twice():
+    pass
 
 
 @theory.define
@@ -897,3 +928,55 @@ AT_THREE = location == 3
 def called_formula():
     return AT_THREE()
 #! 12+8 GL143 this cannot be called
+
+
+@theory.proc
+def second_words():
+    with together():
+        with branch(), guard(free(1)):
+#! 24+14 GL143 one word a `with`
+#! help: write one `with` inside the other
+            pass
+        with branch:
+#! 14+6 GL143 `branch` is called
+#! help: write `with branch():`
+            pass
+        with branch(3):
+#! 14+9 GL015 `branch` takes no arguments by place, not 1
+            pass
+        with branch() as part:
+#! 26+4 GL143 `branch` gives nothing a name
+#! help: `with let(e) as x:` does
+            pass
+    with interrupts():
+        with on:
+#! 14+2 GL143 `on` is called
+#! help: write `with on():`
+            pass
+        with on(free(1)), guard(free(2)):
+#! 27+14 GL143 one word a `with`
+#! help: write one `with` inside the other
+            pass
+        for n in on(station, where=free(n)):
+            pass
+        else:
+            pass
+#! 13+4 GL143 a loop of a program has no `else`
+#! help: write it behind the loop
+    with within(3):
+        pass
+    with otherwise(4):
+#! 10+12 GL015 `otherwise` takes no arguments by place, not 1
+        pass
+
+
+@theory.action
+def drive(to: station):
+    pass
+
+
+@theory.device("rcx", file="motors.nqc", name="motors")
+def motors():
+    bind(drive(to=3), number=1)
+#! 16+4 GL015 `drive` takes no `to=`
+#! help: it takes arguments by place only
