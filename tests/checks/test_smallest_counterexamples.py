@@ -194,13 +194,15 @@ domain trial
 fluent x: int = 2
 fluent y: int = 3
 fluent l: list[1..3] = []
-invariant together: x * y >= 0
+invariant alike: x * y >= 0
 action take:
     poss l != []
     causes x := first(l)
     causes l := rest(l)
 """
-    (finding,) = found(folder, text)
+    path = folder / "lists.gl"
+    path.write_text(text)
+    (finding,) = examine(path, proofs=True).findings
     assert finding.notes == ("for example when y = -1, l = [1] and `take` is done",)
 
 
