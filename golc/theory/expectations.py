@@ -103,7 +103,7 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     if found.type == STRING and what == "`+`":
         help_ = f'`{found.span.either("", "f")}"{{…}}{{…}}"` puts texts together'
     elif found.type == BOOL and what == "`sum`" and found.span.source.python:
-        help_ = f"write `count({shown(found)} for …)` for how often it is true"
+        help_ = "`count(φ for n in station)` is how often something is true"
     elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES and not found.span.source.python:
         help_ = parentheses(what.strip("`"))
     mismatch(context, found, "a number", what, help_)

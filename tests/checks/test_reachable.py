@@ -161,6 +161,13 @@ def test_parameters_without_end_that_make_few_states(tmp_path: Path, parameter: 
     assert str(examined(tmp_path, text).scope) == scope
 
 
+def test_effects_that_contradict_each_other_lead_nowhere(tmp_path: Path) -> None:
+    text = f"{SWITCH}\nexog far(n: int):\n    causes x := 5 when n > 3\n    causes x := 4 when n > 3\n"
+    done = examined(tmp_path, text)
+    assert str(done.scope) == "in all 4 states that can be reached"
+    assert [finding.message for finding in done.findings] == ["`far` may give `x` two values at once"]
+
+
 def test_an_integer_without_end_that_is_an_argument_of_a_fluent(tmp_path: Path) -> None:
     text = f"{SWITCH}\nfluent called(n: 4..6): bool = false\nexog call(n: int):\n    causes called(n) := true\n"
     done = examined(tmp_path, text)
