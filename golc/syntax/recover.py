@@ -7,6 +7,7 @@ from collections.abc import Iterable
 
 from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree as ast
+from golc.syntax.failure import Failure
 from golc.syntax.keywords import closest
 from golc.syntax.layout import split
 from golc.syntax.pieces import Piece, parse_piece
@@ -35,7 +36,8 @@ def recover(source: Source, findings: Findings) -> ast.File | None:
         return None
     start = pieces[0].part.start
     here = Span(source, start, start)
-    return ast.File(domain or ast.Ident("", span=here), declarations, span=here.to(pieces[-1].part))
+    unread = tuple(span for piece in pieces for span in piece.unread)
+    return ast.File(domain or ast.Ident("", span=here), declarations, unread=unread, span=here.to(pieces[-1].part))
 
 
 def _pieces(source: Source) -> Iterable[tuple[Piece, Findings]]:
@@ -108,19 +110,20 @@ def _merge(read: list[tuple[Piece, Findings]], findings: Findings) -> None:
     """The findings of all pieces, without those that only repeat a mistake made elsewhere."""
     misused = {
         diagnostic.span.text
-        for piece, found in read
-        for diagnostic in found.diagnostics
-        if piece.failure is None and diagnostic.code is Code.RESERVED
+        for piece, built in read
+        for diagnostic in built.diagnostics
+        if diagnostic.code is Code.RESERVED
     }
     tabs = False
-    for piece, found in read:
-        for diagnostic in found.diagnostics:
+    for piece, built in read:
+        findings.diagnostics += built.diagnostics
+        for diagnostic, failure in piece.mistakes:
             tab = diagnostic.code is Code.INDENTATION and "\t" in diagnostic.span.text
-            if not (tab and tabs) and not _uses(piece, misused):
+            if not (tab and tabs) and not _uses(failure, misused):
                 findings.add(diagnostic)
             tabs = tabs or tab
 
 
-def _uses(piece: Piece, misused: set[str]) -> bool:
-    """Whether a piece cannot be read in a line that uses a reserved word which another piece declares as a name."""
-    return piece.failure is not None and any(str(token) in misused for token in piece.failure.line)
+def _uses(failure: Failure | None, misused: set[str]) -> bool:
+    """Whether a line cannot be read that uses a reserved word which another piece declares as a name."""
+    return failure is not None and any(str(token) in misused for token in failure.line)
