@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TypeAlias
 
-from golc.diagnostics import Code, Diagnostic, Findings, Label, Source, UserError
+from golc.diagnostics import Code, Diagnostic, Findings, Label, Source, Span, UserError
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_domain
@@ -35,7 +35,8 @@ def join(file: tree.File, source: Source, findings: Findings, read: Reading = re
     joiner = _Joiner(findings, read)
     joiner.enter(file, source, None)
     joiner.run()
-    return Joined(replace(file, declarations=tuple(joiner.declarations)), tuple(joiner.sources))
+    joined = replace(file, declarations=tuple(joiner.declarations), unread=tuple(joiner.unread))
+    return Joined(joined, tuple(joiner.sources))
 
 
 @dataclass
@@ -56,6 +57,7 @@ class _Joiner:
     read: Reading
     declarations: list[tree.Declaration] = field(default_factory=list)
     sources: list[Source] = field(default_factory=list)
+    unread: list[Span] = field(default_factory=list)
     seen: set[Path] = field(default_factory=set)
     stack: list[_Open] = field(default_factory=list)
 
@@ -63,6 +65,7 @@ class _Joiner:
         path = Path(source.name).resolve()
         self.seen.add(path)
         self.sources.append(source)
+        self.unread += file.unread
         self.stack.append(_Open(path, source, importing, iter(file.declarations)))
 
     def run(self) -> None:
@@ -91,6 +94,7 @@ class _Joiner:
             return False
         file = parse_file(source, self.findings)
         if file is None:
+            self.unread.append(Span(source, 0, len(source.text)))
             self.seen.add(path)
             return False
         self.enter(file, source, node)

@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING, Unpack
 
 import click
 
-from golc.cli.common import Console, Quantity, address, console_options, constants_option, speed_option
+from golc.cli.console import Console
+from golc.cli.options import Quantity, address, console_options, constants_option, speed_option
 
 if TYPE_CHECKING:
     from golc.runtime.conversation import Voice

@@ -11,7 +11,7 @@ from golc.diagnostics import Findings, Source, Span
 from golc.embed.depth import nodes
 from golc.embed.errors import Refused
 from golc.embed.owners import Owned, check_owners
-from golc.embed.places import calling_frame
+from golc.embed.places import calling_frame, statement_around
 from golc.syntax import tree
 from golc.theory.recursion import deep_recursion
 
@@ -79,6 +79,7 @@ class Parts:
         """The tree of all declarations; what is wrong with one does not hide the others."""
         findings = Findings()
         made: list[tree.Declaration] = []
+        unread: list[Span] = []
         with deep_recursion():
             owners = self._joined()
             for making in self._makings(set()):
@@ -87,10 +88,12 @@ class Parts:
                     check_owners(nodes(node), owners)
                 except Refused as error:
                     findings.diagnostics += error.diagnostics
+                    unread += [statement_around(finding.span) for finding in error.diagnostics]
                 else:
                     made.append(node)
         sources = {id(each): each for each in (self.place.source, *(node.span.source for node in made))}
-        return Written(tree.File(self.domain, tuple(made), span=self.place), findings, tuple(sources.values()))
+        file = tree.File(self.domain, tuple(made), unread=tuple(unread), span=self.place)
+        return Written(file, findings, tuple(sources.values()))
 
     def _makings(self, seen: set[Parts]) -> Iterator[Making]:
         seen.add(self)

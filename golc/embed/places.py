@@ -63,6 +63,21 @@ def span_of(source: Source, node: Positioned) -> Span:
     return Span(source, start, start if end_column is None else max(start, offset(source, end_line, end_column)))
 
 
+def statement_around(span: Span) -> Span:
+    """What a declaration that stands at a place consists of: the decorated function or else the statement around it."""
+    source, found = span.source, span
+    for node in ast.walk(tree_of(source)):
+        if isinstance(node, ast.stmt):
+            statement = span_of(source, node)
+            if isinstance(node, ast.FunctionDef) and node.decorator_list:
+                statement = Span(source, offset(source, node.decorator_list[0].lineno, 0), statement.end)
+                if statement.start <= span.start < statement.end:
+                    return statement
+            elif statement.start <= span.start < statement.end:
+                found = statement  # what is further in comes later
+    return found
+
+
 def offset(source: Source, line: int, column: int) -> int:
     """The offset of a line (from 1) and a column in bytes (from 0); the end of the text for one that is not there."""
     if line > len(source.line_starts):

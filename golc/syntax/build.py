@@ -7,7 +7,7 @@ from typing import Any, TypeAlias
 
 from lark import Token, Tree
 
-from golc.diagnostics import Code, Findings, Source, Span
+from golc.diagnostics import Code, Findings, Span
 from golc.syntax import tree as ast
 from golc.syntax.layout import DEEPEST, LONGEST_NUMBER
 from golc.syntax.messages import parse_message, plain_text
@@ -17,14 +17,15 @@ from golc.syntax.words import RESERVED
 Inner: TypeAlias = Callable[[Span], ast.Expr | None]
 """Parses the expression at a place inside a message."""
 
+Placed: TypeAlias = Callable[[int, int], Span]
+"""The place in the source of what was parsed, by its offsets in the text."""
+
 
 class Builder:
-    """Builds the nodes of one text that begins at ``base`` in a source; what is wrong with names or messages is added
-    to the findings."""
+    """Builds the nodes of one text; what is wrong with names or messages is added to the findings."""
 
-    def __init__(self, source: Source, base: int, findings: Findings, inner: Inner) -> None:
-        self.source = source
-        self.base = base
+    def __init__(self, placed: Placed, findings: Findings, inner: Inner) -> None:
+        self.placed = placed
         self.findings = findings
         self.inner = inner
 
@@ -48,7 +49,7 @@ class Builder:
             order.append(tree)
             depth += tree.data in NESTING
             if depth > DEEPEST:
-                too_deep(self.findings, self.source, self.span(tree).start)
+                too_deep(self.findings, self.span(tree))
                 return None
             waiting += [(child, depth) for child in tree.children if isinstance(child, Tree)]
         return order
@@ -69,7 +70,7 @@ class Builder:
     def span(self, part: Tree[Token] | Token) -> Span:
         """Where a tree or token stands in the source."""
         place: Any = part.meta if isinstance(part, Tree) else part
-        return Span(self.source, self.base + place.start_pos, self.base + place.end_pos)
+        return self.placed(place.start_pos, place.end_pos)
 
     def declare(self, *names: ast.Ident) -> None:
         """Names that come into being here: a reserved word among them is a finding."""
@@ -98,12 +99,12 @@ class Builder:
         return plain_text(self.span(token), self.findings)
 
 
-def too_deep(findings: Findings, source: Source, place: int) -> None:
-    """Nesting that no person writes and no pass over the tree has to bear begins at a place."""
+def too_deep(findings: Findings, span: Span) -> None:
+    """Nesting that no person writes and no pass over the tree has to bear begins where a span does."""
     findings.error(
         Code.NESTING,
         f"nesting is deeper than {DEEPEST} levels",
-        Span(source, place, place + 1),
+        Span(span.source, span.start, span.start + 1),
         help="give a part of it a name with `define`, or make a part of the program a procedure",
     )
 

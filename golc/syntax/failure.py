@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from copy import copy
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, TypeAlias
 
-from lark import Token, UnexpectedCharacters, UnexpectedToken
+from lark import Token, Tree, UnexpectedCharacters, UnexpectedToken
 from lark.parsers.lalr_interactive_parser import InteractiveParser
+from lark.parsers.lalr_parser_state import ParserState
 
 from golc.diagnostics import Code, Diagnostic, Fix, Label, Severity, Span
 from golc.syntax.layout import CLOSING, OPENING
@@ -24,7 +26,8 @@ class Failure:
 
     ``start`` is the symbol that the part was parsed from; ``tokens`` were read; ``bad`` came next, None for a
     character; ``place`` is its offset in the part; ``accepts`` are the terminals that could have come, ``chosen_from``
-    those that could have come instead of the last token read; ``stack`` is the parser's.
+    those that could have come instead of the last token read; ``stacks`` are the parser's before each word of the
+    current line, and where it failed.
     """
 
     part: Span
@@ -34,7 +37,7 @@ class Failure:
     place: int
     accepts: frozenset[str]
     chosen_from: frozenset[str]
-    stack: tuple[int, ...]
+    stacks: tuple[tuple[int, ...], ...]
 
     @property
     def kind(self) -> str:
@@ -135,21 +138,26 @@ Hint: TypeAlias = Callable[[Failure], Diagnostic | None]
 """A rule that recognises a kind of mistake."""
 
 
-def failure(part: Span, start: str, text: str) -> Failure | None:
-    """Parse again, token by token, and stop where it fails; None if it does not."""
+def read(part: Span, start: str, text: str) -> Tree[Token] | Failure:
+    """The parse tree of a text that begins at a part of a source, or where its parser fails; raises ``LayoutError``."""
     interactive = parser().parse_interactive(text, start=start)
     stack = interactive.parser_state.state_stack
     lex: Any = interactive.lexer_thread.lex
     feed_eof: Any = interactive.feed_eof
     tokens: list[Token] = []
-    before = current = list(stack)
+    line: list[tuple[int, ...]] = []
+    before = current = tuple(stack)
     try:
         for token in lex(interactive.parser_state):
             interactive.feed_token(token)
             tokens.append(token)
-            before, current = current, list(stack)
-        feed_eof(tokens[-1] if tokens else None)
-        return None
+            if token.type in LAYOUT:
+                line.clear()
+            else:
+                line.append(current)
+            before, current = current, tuple(stack)
+        parsed: Tree[Token] = feed_eof(tokens[-1] if tokens else None)
+        return parsed
     except UnexpectedToken as error:
         bad: Token | None = _as_word(error.token)
         place = (tokens[-1].end_pos or 0) if error.token.type == "$END" and tokens else error.token.start_pos or 0
@@ -157,7 +165,26 @@ def failure(part: Span, start: str, text: str) -> Failure | None:
         bad, place = None, error.pos_in_stream
     # The parser reduces before it finds that a token does not fit: what it accepts is asked of the state before that.
     accepts, chosen_from = _accepts(interactive, current), _accepts(interactive, before)
-    return Failure(part, start, tuple(tokens), bad, place, accepts, chosen_from, tuple(current))
+    return Failure(part, start, tuple(tokens), bad, place, accepts, chosen_from, (*line, current))
+
+
+def wants(start: str, stack: Iterable[int], terminal: str) -> bool:
+    """Whether a terminal could come when the parser's stack is this one."""
+    no_lexer: Any = None
+    state = ParserState(without_trees(start), no_lexer, list(stack), [])
+    try:
+        state.feed_token(Token(terminal, ""))
+    except UnexpectedToken:
+        return False
+    return True
+
+
+def without_trees(start: str) -> Any:
+    """What the parser needs to go on from a stack when it need not build trees, so that it needs no values of what it
+    has read."""
+    conf = copy(parser().parse_interactive(start=start).parser_state.parse_conf)
+    conf.callbacks = {}
+    return conf
 
 
 def _as_word(token: Token) -> Token:
@@ -166,7 +193,7 @@ def _as_word(token: Token) -> Token:
     return token if terminal is None else Token.new_borrow_pos(terminal, str(token), token)
 
 
-def _accepts(interactive: InteractiveParser, stack: list[int]) -> frozenset[str]:
+def _accepts(interactive: InteractiveParser, stack: Iterable[int]) -> frozenset[str]:
     """The terminals that could come when the parser's stack is this one."""
     interactive.parser_state.state_stack[:] = stack
     accepts: Any = interactive.accepts

@@ -69,6 +69,9 @@ def missing_unit(failure: Failure) -> Diagnostic | None:
         condition = failure.line[0] == "wait" and failure.line[1].type == "NAME" if len(failure.line) == 2 else False
         help = "write `s`, seconds; or `wait until …`, if it is a condition" if condition else "write `s`, seconds"
         return failure.finding(Code.MISSING, "the unit of this time is missing", failure.gap(), help)
+    if "STEPS" in failure.accepts and failure.previous == "steps":
+        span, help = failure.span(failure.previous), "write `at most n steps`, with a number for `n`"
+        return failure.finding(Code.MISSING, "the number of steps is missing", span, help)
     if "STEPS" in failure.accepts:
         message, gap, help = "the word `steps` is missing", failure.gap(), "write `at most … steps`"
         return failure.finding(Code.MISSING, message, gap, help, fix=insertion(gap, " steps"))
@@ -111,6 +114,9 @@ def missing_operator(failure: Failure) -> Diagnostic | None:
         return failure.finding(Code.MISSING, message, failure.span(failure.previous), help)
     if failure.kind not in STARTS or "AND" not in failure.accepts or failure.previous is None:
         return None
+    if failure.previous in ("and", "or", "implies", "iff", "in", "if"):
+        message = f"an expression is missing before `{failure.previous}`"
+        return failure.finding(Code.MISSING, message, failure.span(failure.previous), "write what belongs there")
     between = "an operator or a comma" if "COMMA" in failure.accepts else "an operator"
     help = "write what joins them" + ("" if failure.brackets else ", or begin another line")
     if "WHEN" in failure.accepts:

@@ -22,7 +22,7 @@ CLOSING = {"RPAR": ")", "RSQB": "]", "RBRACE": "}"}
 
 
 class LayoutError(Exception):
-    """The indentation at ``start..end`` makes no block: ``tab`` or ``dedent``."""
+    """The indentation at ``start..end`` makes no block, below blocks in the columns ``levels``: ``tab``, ``dedent``."""
 
     def __init__(self, kind: str, start: int, end: int, levels: tuple[int, ...] = ()) -> None:
         super().__init__(kind)
@@ -66,7 +66,7 @@ def _line_end(token: Token, previous: Token | None, levels: list[int]) -> Iterat
     start = end - len(indentation)
     yield _after("_NL", token if previous is None else previous)
     if "\t" in indentation:
-        raise LayoutError("tab", start + indentation.index("\t"), end)
+        raise LayoutError("tab", start + indentation.index("\t"), end, tuple(levels))
     width = len(indentation)
     if width > levels[-1]:
         levels.append(width)
@@ -125,6 +125,17 @@ def split(text: str) -> list[Chunk]:
         if too_deep is None and brackets + len(levels) - 1 > DEEPEST:
             too_deep = mark.end() - 1 if brackets else mark.end()
     return [*chunks, Chunk(start, len(text), too_deep)]
+
+
+def unclosed(text: str) -> list[str]:
+    """The brackets that are open at the end of a text."""
+    brackets: list[str] = []
+    for mark in _MARK.finditer(text):
+        if mark.group() in ("(", "[", "{"):
+            brackets.append(mark.group())
+        elif mark.group() in (")", "]", "}") and brackets:
+            brackets.pop()
+    return brackets
 
 
 def _begins(text: str, place: int, brackets: int) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 
 from lark import UnexpectedInput
 
@@ -27,6 +28,10 @@ def parse_file(source: Source, findings: Findings) -> ast.File | None:
         file = recover(source, found)
         if not found.has_errors:
             found.error(Code.SYNTAX, "the file does not follow the grammar", Span(source, 0, 0))
+    if file is not None:
+        # A name that cannot be one is as good as unread: what it was to name is missing elsewhere.
+        reserved = [finding.span for finding in found.diagnostics if finding.code is Code.RESERVED]
+        file = replace(file, unread=(*file.unread, *reserved))
     for diagnostic in sorted(found.diagnostics, key=lambda diagnostic: diagnostic.span.start):
         findings.add(diagnostic)
     return file
@@ -48,5 +53,5 @@ def _whole(source: Source, findings: Findings) -> ast.File | None:
         parsed = parser().parse(source.text + "\n", start="start")
     except (UnexpectedInput, LayoutError):
         return None
-    file: ast.File | None = builder(source, 0, findings).build(parsed)
+    file: ast.File | None = builder(lambda start, end: Span(source, start, end), findings).build(parsed)
     return file

@@ -2,54 +2,58 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
-from lark import UnexpectedInput
-
-from golc.diagnostics import Findings, Source, Span
+from golc.diagnostics import Diagnostic, Findings, Span
 from golc.syntax import tree as ast
-from golc.syntax.build import Builder, too_deep
+from golc.syntax.build import Builder, Placed, too_deep
 from golc.syntax.failure import Failure
-from golc.syntax.friendly import diagnose
-from golc.syntax.layout import LayoutError, split
-from golc.syntax.parser import parser
+from golc.syntax.layout import split
+from golc.syntax.mending import mended
 
 
-@dataclass(frozen=True)
+@dataclass
 class Piece:
-    """What came of a piece of a source: its node, or None; ``failure`` tells where the parser failed, if it did."""
+    """What came of a piece of a source: its node, or None.
+
+    ``mistakes`` are what the parser met in the order of the text, each with how it failed if it did; ``unread`` is
+    what was passed over, all of it if there is no node.
+    """
 
     part: Span
-    node: Any
-    failure: Failure | None = None
+    node: Any = None
+    mistakes: list[tuple[Diagnostic, Failure | None]] = field(default_factory=list)
+    unread: list[Span] = field(default_factory=list)
 
 
 def parse_piece(part: Span, start: str, deep: int | None, findings: Findings) -> Piece:
-    """Parse a part of a source from a start symbol; ``deep`` is the place where it is nested too deeply, if it is."""
+    """Parse a part of a source from a start symbol; ``deep`` is the place where it is nested too deeply, if it is.
+
+    What is found by building the tree is added to ``findings``.
+    """
     if deep is not None:
-        too_deep(findings, part.source, deep)
-        return Piece(part, None)
-    text = part.text if start == "expr" else part.text + "\n"
-    try:
-        parsed = parser().parse(text, start=start)
-    except (UnexpectedInput, LayoutError) as error:
-        finding, failure = diagnose(part, start, text, error)
-        findings.add(finding)
-        return Piece(part, None, failure)
-    return Piece(part, builder(part.source, part.start, findings).build(parsed))
+        too_deep(findings, Span(part.source, deep, deep))
+        return Piece(part, unread=[part])
+    read = mended(part, start, "" if start == "expr" else "\n")
+    if read.reading.parsed is None:
+        return Piece(part, None, read.mistakes, [part])
+    node = builder(read.reading.placed, findings).build(read.reading.parsed)
+    return Piece(part, node, read.mistakes, [part] if node is None else read.unread)
 
 
 def parse_inner(span: Span, findings: Findings) -> ast.Expr | None:
-    """The expression that is all of a span, with spaces around it or without."""
+    """The expression that is all of a span, with spaces around it or without; None after a mistake in it."""
     text = span.text
     start = span.start + len(text) - len(text.lstrip())
     part = Span(span.source, start, start + len(text.strip()))
     deep = next((start + chunk.too_deep for chunk in split(part.text) if chunk.too_deep is not None), None)
-    node: ast.Expr | None = parse_piece(part, "expr", deep, findings).node
+    piece = parse_piece(part, "expr", deep, findings)
+    findings.diagnostics += [finding for finding, _ in piece.mistakes]
+    node: ast.Expr | None = None if piece.mistakes else piece.node
     return node
 
 
-def builder(source: Source, base: int, findings: Findings) -> Builder:
-    """A builder for a text that begins at ``base``."""
-    return Builder(source, base, findings, lambda span: parse_inner(span, findings))
+def builder(placed: Placed, findings: Findings) -> Builder:
+    """A builder for a text whose places are known."""
+    return Builder(placed, findings, lambda span: parse_inner(span, findings))

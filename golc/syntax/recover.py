@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from itertools import pairwise
 
 from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree as ast
+from golc.syntax.failure import Failure
 from golc.syntax.keywords import closest
 from golc.syntax.layout import split
 from golc.syntax.pieces import Piece, parse_piece
@@ -35,7 +37,8 @@ def recover(source: Source, findings: Findings) -> ast.File | None:
         return None
     start = pieces[0].part.start
     here = Span(source, start, start)
-    return ast.File(domain or ast.Ident("", span=here), declarations, span=here.to(pieces[-1].part))
+    unread = tuple(span for piece in pieces for span in piece.unread)
+    return ast.File(domain or ast.Ident("", span=here), declarations, unread=unread, span=here.to(pieces[-1].part))
 
 
 def _pieces(source: Source) -> Iterable[tuple[Piece, Findings]]:
@@ -108,19 +111,41 @@ def _merge(read: list[tuple[Piece, Findings]], findings: Findings) -> None:
     """The findings of all pieces, without those that only repeat a mistake made elsewhere."""
     misused = {
         diagnostic.span.text
-        for piece, found in read
-        for diagnostic in found.diagnostics
-        if piece.failure is None and diagnostic.code is Code.RESERVED
+        for piece, built in read
+        for diagnostic in built.diagnostics
+        if diagnostic.code is Code.RESERVED
     }
-    tabs = False
-    for piece, found in read:
-        for diagnostic in found.diagnostics:
+    tabs, said = False, _said_of_next([piece for piece, _ in read])
+    for piece, built in read:
+        findings.diagnostics += built.diagnostics
+        for diagnostic, failure in piece.mistakes:
             tab = diagnostic.code is Code.INDENTATION and "\t" in diagnostic.span.text
-            if not (tab and tabs) and not _uses(piece, misused):
+            if not (tab and tabs) and not _uses(failure, misused) and id(diagnostic) not in said:
                 findings.add(diagnostic)
             tabs = tabs or tab
 
 
-def _uses(piece: Piece, misused: set[str]) -> bool:
-    """Whether a piece cannot be read in a line that uses a reserved word which another piece declares as a name."""
-    return piece.failure is not None and any(str(token) in misused for token in piece.failure.line)
+def _said_of_next(pieces: list[Piece]) -> set[int]:
+    """The findings that a line in the first column, which belongs below the one before it, has another word for: that
+    something is missing there, and the same of further lines below it."""
+    said = set()
+    for piece, below in pairwise(pieces):
+        if not _is_lost(below) or re.search(r"\n[ \t]*\r?\n", piece.part.text):
+            continue
+        last, end = piece.mistakes[-1][0] if piece.mistakes else None, piece.part.start + len(piece.part.text.rstrip())
+        if last is not None and last.code is Code.MISSING and last.span.end == end:
+            said.add(id(last))
+        if _is_lost(piece) and piece.mistakes[1:] == []:
+            said.add(id(below.mistakes[0][0]))
+    return said
+
+
+def _is_lost(piece: Piece) -> bool:
+    """Whether a piece is no declaration, but a line that is not indented."""
+    first = piece.mistakes[0][0] if piece.mistakes else None
+    return first is not None and first.code is Code.INDENTATION and first.span == _word_span(piece)
+
+
+def _uses(failure: Failure | None, misused: set[str]) -> bool:
+    """Whether a line cannot be read that uses a reserved word which another piece declares as a name."""
+    return failure is not None and any(str(token) in misused for token in failure.line)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from copy import copy
 from typing import Any
 
 from lark import Token, UnexpectedInput
@@ -10,7 +9,7 @@ from lark.lexer import LexerThread
 from lark.parsers.lalr_parser_state import ParserState
 
 from golc.diagnostics import Code, Diagnostic, Fix, Span
-from golc.syntax.failure import LAYOUT, Failure
+from golc.syntax.failure import LAYOUT, Failure, without_trees
 from golc.syntax.fixes import sign_at, without
 from golc.syntax.layout import CLOSING, OPENING, LayoutError
 from golc.syntax.parser import parser
@@ -86,13 +85,9 @@ def goes_on(failure: Failure, terminal: str) -> bool:
 
 def _goes_on(failure: Failure, inserted: str | None, rest: str) -> bool:
     """Whether, after one more terminal or none, the parser can read the rest of a line, with its end if it has one."""
-    interactive = parser().parse_interactive(start=failure.start)
-    # Without callbacks the parser builds no trees, so that it needs no values of what it has read.
-    conf = copy(interactive.parser_state.parse_conf)
-    conf.callbacks = {}
     frontend: Any = parser().parser
     thread = LexerThread.from_text(frontend.lexer, rest.strip())
-    state: Any = ParserState(conf, thread, list(failure.stack), [])
+    state: Any = ParserState(without_trees(failure.start), thread, list(failure.stacks[-1]), [])
     depth = len(failure.brackets) + _depth(inserted)
     lex: Any = thread.lex
     try:

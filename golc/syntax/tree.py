@@ -548,10 +548,11 @@ Declaration: TypeAlias = (
 
 @dataclass(frozen=True)
 class File(Node):
-    """A whole file: its domain's name and its declarations in order."""
+    """A whole file: its domain's name and its declarations in order; ``unread`` is what could not be read of it."""
 
     domain: Ident
     declarations: tuple[Declaration, ...]
+    unread: tuple[Span, ...] = field(default=(), compare=False, repr=False, kw_only=True)
 
 
 # ---- programs

@@ -7,13 +7,14 @@ collects the names, ``context`` resolves each declaration once, the ``elaborate_
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TypeVar
 
-from golc.diagnostics import Code, Findings, Label, Source
+from golc.diagnostics import Code, Diagnostic, Findings, Label, Source, Span
 from golc.syntax import tree
-from golc.syntax.layout import split
+from golc.syntax.omissions import STAND_IN
+from golc.syntax.words import RESERVED
 from golc.theory import elaborate_actions as actions
 from golc.theory import elaborate_statements as programs
 from golc.theory import elaborate_types as types
@@ -46,10 +47,13 @@ from golc.theory.unfolding import check_unfolding
 
 T = TypeVar("T")
 
+_STAND_IN = re.compile(f"`({STAND_IN}_*)`")
+
 _NAMELESS = re.compile(
-    r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal)[ \t]*(?:[^A-Za-z \t]|from\b))"
+    r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal|let|for|pick|on some)"
+    r"[ \t]*(?:[^A-Za-z \t]|(?:from|in|where)\b))"
 )
-"""The beginning of an import, or of a declaration whose name is missing."""
+"""The beginning of an import, or of a declaration or line whose name is missing."""
 
 
 def elaborate(
@@ -67,7 +71,7 @@ def elaborate(
     theory, only notes, if a value in its declarations takes that. If there are errors among
     ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
     """
-    unread = [text for each in sources or (source,) for text in _unread(file, each)] if findings.has_errors else []
+    unread = [span.text for span in file.unread]
     assumed = frozenset([word for text in unread for word in WORD.findall(text)])
     nameless = any(map(_brings_a_name, unread))
     found = Findings()
@@ -80,8 +84,7 @@ def elaborate(
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
-    for finding in found.diagnostics:
-        findings.add(finding)
+    findings.diagnostics += [finding for finding in found.diagnostics if not _is_about(finding, file.unread)]
     return None if findings.has_errors else theory
 
 
@@ -94,16 +97,27 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
-def _unread(file: tree.File, source: Source) -> list[str]:
-    """The parts of a text that could not be read."""
-    read = {declaration.span.start for declaration in file.declarations if declaration.span.source is source}
-    return [source.text[chunk.start : chunk.end] for chunk in split(source.text) if chunk.start not in read]
+def _is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:
+    """Whether a finding is about what has been passed over: it lies in that, or it is about something which holds a
+    part of it, or it speaks of the name that stands for it."""
+    span = finding.span
+    named = _STAND_IN.search(finding.message)
+    return (named is not None and named[1] not in span.source.text) or any(
+        span.source is each.source
+        and ((each.start <= span.start and span.end <= each.end) or (span.start <= each.start and each.end <= span.end))
+        for each in unread
+    )
 
 
 def _brings_a_name(unread: str) -> bool:
-    """Whether a declaration would bring a name that does not stand in it: it has none, or it is an import."""
-    first = WORD.match(unread)
-    return _NAMELESS.match(unread) is not None or (first is not None and closest(first[0], ["import"]) is not None)
+    """Whether what was not read would bring a name that does not stand in it: it has none, or one that cannot be one,
+    or it is an import."""
+    first = WORD.match(unread.strip())
+    return (
+        unread in RESERVED
+        or _NAMELESS.match(unread.strip()) is not None
+        or (first is not None and closest(first[0], ["import"]) is not None)
+    )
 
 
 def _elaborate(

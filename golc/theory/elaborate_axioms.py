@@ -31,6 +31,8 @@ def with_axioms(context: Context, nodes: Sequence[tree.Axiom], actions: Mapping[
     for node in nodes:
         signature = _head(context, node)
         if signature is None:
+            for case in node.cases:
+                acting(context, case.pattern, "an axiom")
             continue
         name = node.fluent.text
         if name in described:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -19,7 +19,7 @@ from golc.theory.elaborate_values import argument, parameter_scope
 from golc.theory.fitting import BROKEN, includes, size
 from golc.theory.forms import describe, type_text
 from golc.theory.scope import Entry, Kind
-from golc.theory.suggest import did_you_mean
+from golc.theory.suggest import closest, did_you_mean
 from golc.theory.terms import Literal, Term
 from golc.theory.theory import Binding, ByCall, ByPrompt, ByStart, Device, Fixed, Parameter, Setting
 from golc.theory.types import INT, REAL, Type, Value
@@ -79,7 +79,8 @@ def _device(context: Context, node: tree.Device, sensed: Mapping[str, tuple[Term
     if abilities is None:
         help_ = did_you_mean(node.kind.text, SOURCES) or f"known are {', '.join(SOURCES)}"
         context.error(Code.DEVICE, f"unknown kind of device `{node.kind.text}`", node.kind.span, "not known", help_)
-        return None
+        meant = closest(node.kind.text, SOURCES)
+        return None if meant is None else _device(context, replace(node, kind=replace(node.kind, text=meant)), sensed)
     if node.file is not None and abilities.file is None:
         message = f"a device `{node.kind.text}` has no file"
         context.error(Code.DEVICE, message, node.kind.span, "leave the file out")

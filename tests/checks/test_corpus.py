@@ -1,29 +1,21 @@
-"""A sound domain with one mistake at a time: each is one finding, with its place, its words and its help.
-
-The files of ``corpus`` beside this one are the domain and lists of mistakes. Below ``== kind: sort of mistake`` stand
-lines of the domain: kept with a space before them, taken out with ``-``, put in with ``+``; ``...`` is whatever lies
-between. Below the line that has the finding stand ``! column+width code message`` and ``! help: …``.
-"""
+"""A sound domain with one mistake at a time: each is one finding, with its place, its words and its help."""
 
 from __future__ import annotations
 
 import re
 import shutil
-from collections.abc import Iterator, Set
-from dataclasses import dataclass, field
+from collections.abc import Set
 from pathlib import Path
 
 import pytest
 
-from golc.diagnostics import Diagnostic, Findings, Severity, Source, UserError
+from golc.diagnostics import Findings, Source, UserError
 from golc.embed.printing import python_text
 from golc.loading import examine
 from golc.rendering import render
 from golc.syntax.parse import parse_file
+from tests.checks.slips import CORPUS, Mistake, mistakes, said
 from tests.notation import no_python
-
-CORPUS = Path(__file__).with_name("corpus")
-DOMAIN = (CORPUS / "depot.gl").read_text(encoding="utf-8").splitlines()
 
 FOUR = frozenset({"misspelt name", "wrong arity", "wrong type", "missing part"})
 WORDS = frozenset({"misspelt keyword", "missing part"})
@@ -49,49 +41,6 @@ KINDS: dict[str, Set[str]] = {
     "reserved word": {"reserved word"},
 }
 """What may be wrong in every kind of declaration, line and statement."""
-
-
-@dataclass
-class Mistake:
-    """The domain with a mistake, and what is said of it."""
-
-    title: str
-    text: list[str] = field(default_factory=list)
-    said: list[str] = field(default_factory=list)
-
-
-def mistakes() -> Iterator[Mistake]:
-    for path in sorted(CORPUS.glob("*.slips")):
-        for block in path.read_text(encoding="utf-8").removeprefix("== ").split("\n== "):
-            title, *lines = block.rstrip("\n").split("\n")
-            yield changed(title, lines)
-
-
-def changed(title: str, lines: list[str]) -> Mistake:
-    mistake, read = Mistake(title), 0
-    parts = "\n".join(line for line in lines if line).split("\n...\n")
-    for part in parts:
-        marked = part.split("\n")
-        old = [line[1:] for line in marked if line[0] in " -"]
-        places = [place for place in range(len(DOMAIN)) if DOMAIN[place : place + len(old)] == old]
-        assert len(places) == 1 and places[0] >= read, (title, old)
-        mistake.text += DOMAIN[read : places[0]]
-        for line in marked:
-            if line[0] in " +":
-                mistake.text.append(line[1:])
-            elif line[0] == "!":
-                mistake.said.append(line[2:] if line.startswith("! help") else f"{len(mistake.text)}:{line[2:]}")
-        read = places[0] + len(old)
-    mistake.text += DOMAIN[read:]
-    return mistake
-
-
-def said(finding: Diagnostic) -> list[str]:
-    span = finding.span
-    severity = "" if finding.severity is Severity.ERROR else f" {finding.severity.value}"
-    place = f"{span.line}:{span.column}+{span.end - span.start}"
-    head = f"{place} {finding.code.code}{severity} {finding.message}"
-    return [head] if finding.help is None else [head, f"help: {finding.help}"]
 
 
 @pytest.fixture(scope="module")

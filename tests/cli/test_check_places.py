@@ -110,3 +110,53 @@ def test_ten_mistakes_are_shown_in_order_and_in_place(
     out, err = capsys.readouterr()
     assert read(out) == PLACES
     assert err.startswith("checked 1 file: 10 errors")
+
+
+CROWDED = """\
+domain yard
+
+type bay = 1..4
+fluent at: bay == 1
+fluent lit(b: bay) = fasle
+fluent queue: list[bay] = [1, 2
+
+action go(to: bay)
+    poss at = to + and lit(to)
+    causes at = tp
+    causes lit(to, 1) := true
+
+proc control:
+    while not lit(4, 4):
+        goo(4)
+        if at == 4 then
+            go(red)
+        else
+            go(1);
+"""
+
+
+def test_mistakes_in_one_declaration_do_not_hide_each_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("yard.gl").write_text(CROWDED)
+    assert invoke(["check", "--format", "json", "yard.gl"]) == 1
+    out, err = capsys.readouterr()
+    found = [(f["span"]["line"], f["span"]["column"], f["message"]) for f in json.loads(out)["findings"]]
+    assert found == [
+        (4, 16, "equality is `=`, not `==`"),
+        (5, 22, "unknown word `fasle`"),
+        (6, 32, "the `]` that closes `[` is missing"),
+        (8, 19, "the colon at the end of this `action` is missing"),
+        (9, 20, "an expression is missing before `and`"),
+        (10, 15, "`=` tests, `:=` changes: an effect is written with `:=`"),
+        (10, 17, "unknown variable `tp`"),
+        (11, 12, "`lit` takes 1 argument, not 2"),  # and in line 14
+        (15, 9, "unknown action `goo`"),
+        (16, 15, "equality is `=`, not `==`"),
+        (16, 20, "`then` is written as a colon"),
+        (17, 16, "unknown name `red`"),
+        (18, 13, "the colon at the end of this `else` is missing"),
+        (19, 18, "`;` does not join or end statements"),
+    ]
+    assert err == "checked 1 file: 14 errors; --fix would fix 7 of them\n"

@@ -48,10 +48,10 @@ def test_everything_is_fixed_that_can_be_and_told(folder: Path, capsys: Captured
         "fixed a.gl:3:1 GL005: a comment begins with `#`, not `//`",
         "fixed a.gl:4:10 GL004: the colon at the end of this `action` is missing",
         "fixed a.gl:5:12 GL005: equality is `=`, not `==`",
-        "fixed a.gl:5:16 GL005: conjunction is `and`, not `&&`",
-        "fixed a.gl:5:20 GL005: negation is `not`, not `!`",
+        "fixed a.gl:5:17 GL005: conjunction is `and`, not `&&`",
         "fixed a.gl:6:14 GL005: `=` tests, `:=` changes: an effect is written with `:=`",
-        "fixed a.gl:6:18 GL005: a line does not end in a full stop",
+        "fixed a.gl:6:17 GL005: a line does not end in a full stop",
+        "fixed a.gl:5:20 GL005: negation is `not`, not `!`",
         "checked 1 file: 8 findings fixed, nothing left",
     ]
     assert [path.name for path in folder.iterdir()] == ["a.gl"]
@@ -60,7 +60,7 @@ def test_everything_is_fixed_that_can_be_and_told(folder: Path, capsys: Captured
 def test_without_the_option_the_summary_offers_it(folder: Path, capsys: Captured) -> None:
     (folder / "a.gl").write_text(SLIPS)
     assert invoke(["check", "a.gl"]) == 1
-    assert capsys.readouterr().err == "checked 1 file: 3 errors; --fix would fix 3 of them\n"
+    assert capsys.readouterr().err == "checked 1 file: 7 errors; --fix would fix 7 of them\n"
     assert (folder / "a.gl").read_text() == SLIPS
 
 
@@ -151,12 +151,12 @@ def test_json_counts_what_was_fixed(folder: Path, capsys: Captured) -> None:
     (folder / "a.gl").write_text(SLIPS.replace("go", "go(x)"))
     assert invoke(["check", "--fix", "-q", "--format", "json", "a.gl"]) == 1
     said: Any = json.loads(capsys.readouterr().out)
-    assert (said["fixed"], said["errors"], [each["code"] for each in said["findings"]]) == (2, 1, ["GL004"])
+    assert (said["fixed"], said["errors"], [each["code"] for each in said["findings"]]) == (7, 1, ["GL004"])
     assert said["findings"][0]["fix"] is None
 
 
 def test_json_says_what_a_fix_does(folder: Path, capsys: Captured) -> None:
-    (folder / "a.gl").write_text("domain d\nfluent f == 1\n")
+    (folder / "a.gl").write_text("domain d\nfluent f == true\n")
     invoke(["check", "-q", "--format", "json", "a.gl"])
     (finding,) = json.loads(capsys.readouterr().out)["findings"]
     span = {"file": "a.gl", "line": 2, "column": 10, "end_line": 2, "end_column": 12}

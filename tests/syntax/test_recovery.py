@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from golc.diagnostics import Code, Findings, Source
-from golc.syntax import tree as ast
 from golc.syntax.parse import parse_expression, parse_file
 
 TEN = """domain ten
@@ -52,6 +51,7 @@ def test_ten_mistakes_are_ten_findings_in_the_order_of_the_text() -> None:
         (7, 20, Code.MISSING, "the `)` that closes `(` is missing"),
         (9, 22, Code.MISSING, "the colon at the end of this `action` is missing"),
         (13, 13, Code.FOREIGN, "equality is `=`, not `==`"),
+        (14, 15, Code.FOREIGN, "`=` tests, `:=` changes: an effect is written with `:=`"),
         (16, 22, Code.FOREIGN, "a line does not end in a full stop"),
         (19, 19, Code.MISSING, "the colon at the end of this `while` is missing"),
         (22, 1, Code.SYNTAX, "`acton` begins no declaration"),
@@ -65,15 +65,20 @@ def test_what_can_be_read_is_read() -> None:
 
     assert file is not None
     assert file.domain.text == "ten"
-    assert [type(node) for node in file.declarations] == [ast.Fluent]
+    assert [node.span.text.split()[0] for node in file.declarations] == (
+        ["type", "fluent", "fluent", "action", "action", "define", "proc", "acton", "goal", "device"]
+    )
+    assert [span.text for span in file.unread] == ["const n: 3\n", "fluent open(d: door = true\n\n", ".", "1 < at < 3"]
 
 
 def test_the_places_of_what_was_read_are_those_of_the_file() -> None:
     file = parse_file(Source("t", TEN), Findings())
 
     assert file is not None
-    (fluent,) = file.declarations
-    assert (fluent.span.line, fluent.span.text) == (6, "fluent ok: station = 1")
+    places = [(node.span.line, node.span.text) for node in file.declarations]
+    assert (6, "fluent ok: station = 1") in places
+    assert (16, "define done := at = 1.") in places
+    assert (18, "proc control:\n    while not done\n        go(1)") in places
 
 
 @pytest.mark.parametrize(
