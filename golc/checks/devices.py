@@ -159,7 +159,8 @@ def _check_answers(theory: BasicActionTheory, findings: Findings) -> None:
     """Nothing is sensed by a device that only keeps books."""
     for device in theory.devices:
         for binding in (device.bindings or implied(theory, device)) if device.kind == "self" else ():
-            if theory.actions[binding.action].senses:
+            action = theory.actions.get(binding.action)
+            if action is not None and action.senses:
                 message = f"`{binding.action}` senses, but the device `self` cannot answer"
                 findings.error(Code.NO_DEVICE, message, binding.span, help="bind it to another device")
 
