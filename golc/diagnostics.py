@@ -102,7 +102,7 @@ class Code(Enum):
     NESTING = ("GL008", "the text is nested too deeply")
     DOMAIN = ("GL009", "the domain line is missing or out of place")
 
-    # 010..049: names, types, declarations
+    # 010..039: names, types, declarations
     NO_FILE = ("GL010", "an import in a text that is no file")
     DUPLICATE = ("GL011", "a name is declared twice")
     UNKNOWN_NAME = ("GL012", "a name is not declared")
@@ -126,10 +126,10 @@ class Code(Enum):
     BINDING = ("GL030", "a binding does not fit its action")
     LOOSE_QUANTIFIER = ("GL031", "a quantifier takes in more than it seems")
     IDLE_IGNORE = ("GL032", "a `golc: ignore` comment has no effect")
-
     PYTHON = ("GL033", "a Python function is not there, or does not fit its declaration")
     NOT_EXECUTED = ("GL034", "Python code is not executed")
 
+    # 040..049: questions about all situations
     EFFECT_CONFLICT = ("GL040", "two effects of an action may give one fluent two values")
     EFFECT_FAILS = ("GL041", "an action can go wrong where it is possible")
     INVARIANT_NOT_KEPT = ("GL042", "an action may break an invariant")
@@ -141,7 +141,6 @@ class Code(Enum):
     INITIAL_VALUE = ("GL051", "an initial value cannot be computed or is outside the type")
     INVARIANT_AT_FIRST = ("GL052", "an invariant is false in the initial state")
     NO_INITIAL_WORLD = ("GL053", "what is said of the initial situation leaves no possible world")
-
     IDLE_CONSTRAINT = ("GL054", "a constraint on the initial situation rules nothing out")
 
     # 060..069: knowledge
@@ -150,41 +149,6 @@ class Code(Enum):
 
     # 070..079: programs
     UNREACHABLE = ("GL070", "an interrupt is not reached")
-
-    # 100..129: run time
-    ARGUMENT_OUTSIDE_TYPE = ("GL100", "an argument is outside its parameter's type")
-    VALUE_OUTSIDE_TYPE = ("GL101", "a value is outside its type")
-    NOTHING = ("GL102", "`none` where a value is needed")
-    DIVISION_BY_ZERO = ("GL103", "division by zero")
-    EMPTY_EXTREMUM = ("GL104", "`min` or `max` over nothing")
-    CONFLICTING_EFFECTS = ("GL105", "two effects give one fluent two values")
-    ENDLESS_RECURSION = ("GL106", "a recursion does not end")
-    RUNS_IN_CIRCLES = ("GL107", "the program runs in circles")
-    BLOCKED = ("GL108", "the program is blocked and nothing can unblock it")
-    NO_ELEMENT = ("GL109", "a list has no such element")
-    EVENTS = ("GL110", "a line of an events file cannot be understood")
-    EVENT = ("GL111", "an action is written that cannot be reported or performed so")
-    IMPOSSIBLE_EVENT = ("GL112", "an exogenous action has occurred that the theory thinks impossible")
-    ABORTED = ("GL113", "the program has ended itself as failed")
-    WAITS_FOR_EVER = ("GL114", "the program waits and nothing can happen any more")
-    SURPRISE = ("GL115", "a device senses what the theory thinks impossible")
-    UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
-    TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
-    TOO_LARGE = ("GL118", "a number, a set or a list grows too large")
-    EXTERN = ("GL119", "a Python function in a term fails")
-    INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
-    SCENARIO = ("GL121", "a scenario does not go as it expects")
-    EVENT_OF_BRICK = ("GL122", "a script reports what the brick reports by itself")
-
-    # 140..149: theories in Python
-    PYTHON_SYNTAX = ("GL140", "the Python of a theory cannot be read")
-    PYTHON_RAISED = ("GL141", "the Python of a theory fails")
-    PYTHON_TRUTH = ("GL142", "Python asks a term for its truth")
-    PYTHON_MEANING = ("GL143", "Python that has no meaning in a theory")
-    PYTHON_VALUE = ("GL144", "a Python value that means nothing in a theory")
-    PYTHON_CHANGED = ("GL145", "a name of Python has changed since the function was declared")
-    NO_THEORY = ("GL146", "a Python file does not hold exactly one theory")
-
     NEVER_FIRES = ("GL071", "an interrupt can never fire")
     STUCK = ("GL072", "an action can never be possible where it stands")
     CONSTANT = ("GL073", "a condition is always true or always false")
@@ -211,6 +175,40 @@ class Code(Enum):
     NQC_BUSY = ("GL097", "a task that never rests slows down the answers")
     NQC_SAMPLED = ("GL098", "exogenous actions are sampled and may be lost")
     NQC_EDITED = ("GL099", "a generated file was edited and is left alone")
+
+    # 100..139: run time
+    ARGUMENT_OUTSIDE_TYPE = ("GL100", "an argument is outside its parameter's type")
+    VALUE_OUTSIDE_TYPE = ("GL101", "a value is outside its type")
+    NOTHING = ("GL102", "`none` where a value is needed")
+    DIVISION_BY_ZERO = ("GL103", "division by zero")
+    EMPTY_EXTREMUM = ("GL104", "`min` or `max` over nothing")
+    CONFLICTING_EFFECTS = ("GL105", "two effects give one fluent two values")
+    ENDLESS_RECURSION = ("GL106", "a recursion does not end")
+    RUNS_IN_CIRCLES = ("GL107", "the program runs in circles")
+    BLOCKED = ("GL108", "the program is blocked and nothing can unblock it")
+    NO_ELEMENT = ("GL109", "a list has no such element")
+    EVENTS = ("GL110", "a line of an events file cannot be understood")
+    EVENT = ("GL111", "an action is written that cannot be reported or performed so")
+    IMPOSSIBLE_EVENT = ("GL112", "an exogenous action has occurred that the theory thinks impossible")
+    ABORTED = ("GL113", "the program has ended itself as failed")
+    WAITS_FOR_EVER = ("GL114", "the program waits and nothing can happen any more")
+    SURPRISE = ("GL115", "a device senses what the theory thinks impossible")
+    TOO_MANY_WORLDS = ("GL116", "there are more possible worlds than golc can go through")
+    UNDECIDED = ("GL117", "the agent does not know what it needs to go on")
+    TOO_LARGE = ("GL118", "a number, a set or a list grows too large")
+    EXTERN = ("GL119", "a Python function in a term fails")
+    INVARIANT_BROKEN = ("GL120", "an invariant is false after an action")
+    SCENARIO = ("GL121", "a scenario does not go as it expects")
+    EVENT_OF_BRICK = ("GL122", "a script reports what the brick reports by itself")
+
+    # 140..149: theories in Python
+    PYTHON_SYNTAX = ("GL140", "the Python of a theory cannot be read")
+    PYTHON_RAISED = ("GL141", "the Python of a theory fails")
+    PYTHON_TRUTH = ("GL142", "Python asks a term for its truth")
+    PYTHON_MEANING = ("GL143", "Python that has no meaning in a theory")
+    PYTHON_VALUE = ("GL144", "a Python value that means nothing in a theory")
+    PYTHON_CHANGED = ("GL145", "a name of Python has changed since the function was declared")
+    NO_THEORY = ("GL146", "a Python file does not hold exactly one theory")
 
     def __init__(self, code: str, title: str) -> None:
         self.code = code
@@ -272,6 +270,7 @@ class Findings:
     diagnostics: list[Diagnostic] = field(default_factory=list)
 
     def add(self, diagnostic: Diagnostic) -> None:
+        """Keep a finding."""
         self.diagnostics.append(diagnostic)
 
     def once(self, diagnostic: Diagnostic) -> None:
@@ -290,6 +289,7 @@ class Findings:
         notes: tuple[str, ...] = (),
         fix: Fix | None = None,
     ) -> None:
+        """Add an error; the parameters are those of ``Diagnostic``."""
         self.add(Diagnostic(code, message, span, Severity.ERROR, marker, labels, notes, help, fix))
 
     def warning(
@@ -302,10 +302,12 @@ class Findings:
         labels: tuple[Label, ...] = (),
         notes: tuple[str, ...] = (),
     ) -> None:
+        """Add a warning; the parameters are those of ``Diagnostic``."""
         self.add(Diagnostic(code, message, span, Severity.WARNING, marker, labels, notes, help))
 
     @property
     def has_errors(self) -> bool:
+        """Whether one of the findings is an error."""
         return any(diagnostic.severity is Severity.ERROR for diagnostic in self.diagnostics)
 
 

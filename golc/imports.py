@@ -78,7 +78,7 @@ class _Joiner:
 
     def follow(self, node: tree.Import) -> bool:
         """Begin with the file of an import, unless it has been joined; False, and a finding, if that cannot be."""
-        name = os.path.join(os.path.dirname(self.stack[-1].source.name), node.path)  # noqa: PTH118, PTH120
+        name = os.path.join(os.path.dirname(node.span.source.name), node.path)  # noqa: PTH118, PTH120
         path = Path(name).resolve()
         for place, opened in enumerate(self.stack):
             if opened.path == path:

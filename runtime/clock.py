@@ -15,6 +15,7 @@ class Clock:
     speed: float = 1.0
 
     def now(self) -> float:
+        """Simulated seconds since the start."""
         return (self.monotonic() - self.start) * self.speed
 
     def until(self, moment: float) -> float:

@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from golc.diagnostics import Code, DeviceError, Findings
+from golc.nqc.numbering import number_bricks
 from golc.runtime.clock import Clock
 from golc.runtime.devices.bricks import Link
-from golc.runtime.devices.build import brick_maps
 from golc.runtime.settings import SIMULATED, Settings
 from golc.runtime.sources.schedule import Schedule
 from golc.theory.ground import Call
@@ -34,7 +34,7 @@ class Connection:
     """
 
     def __init__(self, theory: BasicActionTheory, settings: Settings) -> None:
-        self.maps = brick_maps(theory)
+        self.maps = number_bricks(theory)
         self.robot: RobotInWorld | None = None
         self._theory = theory
         self._settings = settings

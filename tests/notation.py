@@ -9,9 +9,10 @@ import re
 GOLC = re.compile(
     r"""
     .+:=
-    | (abort|action|after|axiom|by|causes|const|cost|define|device|domain|exog|expect|extern|fluent|from|given|goal
+    | (abort|action|after|axiom|by|causes|const|cost|define|device|domain|exog|expect|extern|fluent|given|goal
       |guard|import|initially|invariant|let|on|one|pick|poss|proc|prune|run|say|scenario|search|senses|set|star|static
       |test|type|until|wait|within)[ ]
+    | from[ ](?!golc)
     | (true|false|none|skip|exists|forall|one[ ]of)$
     | .*[\w\]}]\?$                   # t?
     | .*\w\.\.[-\w]                  # 1..6

@@ -16,12 +16,12 @@ def target_of(option: str) -> Target:
     raise ValueError(f"there is no target {option!r}; there is {', '.join(target.option for target in Target)}")
 
 
-def chosen(theory: BasicActionTheory, name: str | None) -> list[Device]:
+def chosen(theory: BasicActionTheory, name: str | None) -> tuple[Device, ...]:
     """The brick of a name, or all of them; ``ValueError`` for an unknown name, ``UserError`` if there is none."""
-    bricks = [device for device in theory.devices if device.kind == "rcx"]
+    bricks = theory.bricks
     if name is not None:
-        known = ", ".join(device.name for device in bricks) or "none"
-        bricks = [device for device in bricks if device.name == name]
+        known = ", ".join(brick.name for brick in bricks) or "none"
+        bricks = tuple([brick for brick in bricks if brick.name == name])
         if not bricks:
             raise ValueError(f"there is no brick {name!r}; there is {known}")
     if not bricks:

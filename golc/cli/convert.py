@@ -25,6 +25,7 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
     """Write the domain file FROM as a theory in Python, or a theory in Python (*.py) as a domain file.
 
     Without TO, or with `-`, the text goes to standard output. A theory in Python is run. Comments are not carried over.
+    Files that the domain names are named relative to the folder of TO.
 
     \b
     golc convert examples/delivery/delivery.gl delivery.py
@@ -40,7 +41,8 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
         return 1
     findings = Findings()
     try:
-        source, text = (_as_golc if to_golc else _as_python)(file, findings)
+        folder = Path(file if target == "-" else target).parent
+        source, text = (_as_golc if to_golc else _as_python)(file, folder, findings)
     except UserError as error:
         findings.diagnostics += error.diagnostics
     console.findings(findings.diagnostics)
@@ -51,17 +53,19 @@ def command(console: Console, file: str, target: str, force: bool) -> int:
     return 0
 
 
-def _as_python(file: str, findings: Findings) -> tuple[Source, str]:
+def _as_python(file: str, folder: Path, findings: Findings) -> tuple[Source, str]:
+    from golc.cli.convert_paths import moved
     from golc.embed.printing import python_text
     from golc.syntax.parse import parse_file
     from golc.syntax.text import read_source
 
     source = read_source(file)
     tree = parse_file(source, findings)
-    return source, "" if tree is None else python_text(tree)
+    return source, "" if tree is None else python_text(moved(tree, folder))
 
 
-def _as_golc(file: str, findings: Findings) -> tuple[Source, str]:
+def _as_golc(file: str, folder: Path, findings: Findings) -> tuple[Source, str]:
+    from golc.cli.convert_paths import moved
     from golc.diagnostics import Source
     from golc.embed.modules import read_theory
     from golc.syntax.format import formatted
@@ -70,7 +74,7 @@ def _as_golc(file: str, findings: Findings) -> tuple[Source, str]:
     written = read_theory(file)
     findings.diagnostics += written.findings.diagnostics
     _refuse_nested_messages(written.file)
-    text = formatted(Source(f"<{file} as a domain>", unparse(written.file)), findings)
+    text = formatted(Source(f"<{file} as a domain>", unparse(moved(written.file, folder))), findings)
     return written.sources[0], text or ""
 
 

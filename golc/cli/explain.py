@@ -5,10 +5,14 @@ from __future__ import annotations
 import re
 import shutil
 from collections.abc import Mapping
+from typing import TYPE_CHECKING
 
 import click
 
 from golc.cli.common import Console, console_options, constants_option
+
+if TYPE_CHECKING:
+    from golc.codes.pages import Page
 
 
 @click.command(name="explain", short_help="Explain a code, or show a name of a domain in the notation of the papers.")
@@ -52,7 +56,6 @@ def command(console: Console, about: tuple[str, ...], form: str, python: bool, c
 
 def _page(word: str, python: bool, console: Console) -> str:
     from golc.codes.pages import page
-    from golc.codes.python import in_python
     from golc.codes.text import as_text
     from golc.diagnostics import Code
     from golc.theory.suggest import did_you_mean
@@ -64,7 +67,13 @@ def _page(word: str, python: bool, console: Console) -> str:
         raise click.UsageError(f"there is no code `{word}`" + (f": {question}" if question else ""))
     if code is None:
         raise click.UsageError("a CODE, or a FILE and a NAME are needed: golc explain elevator.gl lit")
-    found = in_python(page(code)) if python else page(code)
+    return as_text(_in_python(page(code), console) if python else page(code), shutil.get_terminal_size().columns)
+
+
+def _in_python(page: Page, console: Console) -> Page:
+    from golc.codes.python import in_python
+
+    found = in_python(page)
     if found is None:
-        console.note(f"{code.code} is about the text of a `.gl` file: its examples have no form in Python")
-    return as_text(found or page(code), shutil.get_terminal_size().columns)
+        console.note(f"{page.code.code} is about the text of a `.gl` file: its examples have no form in Python")
+    return found or page

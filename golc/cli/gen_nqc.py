@@ -71,7 +71,7 @@ def command(
     if not download and (port is not None or slot is not None):
         raise click.UsageError("--port and --slot belong to --download")
     theory = load(file, constants)
-    names = [device.name for device in theory.devices if device.kind == "rcx" and name in (None, device.name)]
+    names = [brick.name for brick in theory.elaborated.bricks if name in (None, brick.name)]
     if download and len(names) > 1:
         raise click.UsageError(f"--download sends to one brick: choose with --device one of {', '.join(names)}")
     try:

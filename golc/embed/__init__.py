@@ -1,5 +1,8 @@
 """Golog embedded in Python: the language of ``.gl`` files as decorators, operators and translated functions.
 
+A call that has no meaning raises ``golc.UserError`` with its place; what is wrong with translated functions is among
+the findings of ``golc.check``. The manual (docs/embedding.md, docs/forms.md) says what each word means.
+
 >>> from golc.embed import Theory, interval
 >>> theory = Theory("lift")
 >>> floor = theory.type("floor", interval(1, 6))

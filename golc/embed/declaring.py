@@ -90,7 +90,7 @@ class Declaring:
                 raise meaningless(f"`{arg.arg}` is a parameter, and no {kind} has any", meant.place(arg), help_)
         except Refused as error:
             if isinstance(function, str):
-                raise
+                raise  # A name where the function belongs: there is nothing that could be gone on with.
             return self._broken(error, function, kind, name, space)
         self._keep(text, kind, lambda: make(Translator(meant), ident), space)
         return self._handle(text, kind, tuple(golc_name(arg.arg) for arg in meant.parameters()))

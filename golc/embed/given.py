@@ -21,10 +21,20 @@ MISSING: Any = object()
 """Stands for an argument that is left out, where ``None`` is a value."""
 
 
-def named(name: object) -> tuple[tree.Ident, Span]:
-    """The name of what is declared, and the place of the call."""
+def named(name: object, again: str | None = None) -> tuple[tree.Ident, Span]:
+    """The name of what is declared, and the place of the call. Raises ``Refused`` if it is named ``again``."""
     span = caller()
+    if again is not None:
+        raise meaningless("this has its name already", argument(span, None, "name"), "`name=` is for decorators")
     return new_name(name, argument(span, 0, "name")), span
+
+
+def left_to_the_function(**given: object) -> None:
+    """Raise ``Refused`` for an argument of a decorator that says what its function says."""
+    for name, value in given.items():
+        if value is not MISSING and value is not None:
+            help_ = "it has the parameters, the type behind `->` and the value in `return`"
+            raise meaningless(f"`{name}` is what the function says", argument(caller(), None, name), help_)
 
 
 def needed(value: object, span: Span) -> object:

@@ -10,7 +10,7 @@ from typing import Any
 from golc.diagnostics import Code
 from golc.embed.declaring import Declaring
 from golc.embed.errors import meaningless, refused
-from golc.embed.given import MISSING, applied, named, needed, parameters_of, path_of, typed
+from golc.embed.given import MISSING, applied, left_to_the_function, named, needed, parameters_of, path_of, typed
 from golc.embed.names import new_name
 from golc.embed.parts import Parts, Written
 from golc.embed.places import argument, caller
@@ -72,8 +72,9 @@ class Theory(Declaring):
     def const(self, what: Any = None, /, value: object = MISSING, *, name: str | None = None) -> Any:
         """``const c = e``; ``-D c=…`` on the command line replaces it. With a name and a value, or a decorator."""
         if not isinstance(what, str):
+            left_to_the_function(value=value)
             return self._decorated(what, name, "const", declarations.const)
-        ident, span = named(what)
+        ident, span = named(what, name)
         return self._add(tree.Const(ident, expr(needed(value, span), argument(span, 1, "value")), span=span), "const")
 
     def type(self, what: Any = None, /, value: object = MISSING, *, name: str | None = None) -> Any:
@@ -83,8 +84,9 @@ class Theory(Declaring):
         further down.
         """
         if not isinstance(what, str):
+            left_to_the_function(value=value)
             return self._decorated(what, name, "type", declarations.type_)
-        ident, span = named(what)
+        ident, span = named(what, name)
         needed(value, span)
         node = tree.TypeDecl(ident, type_node(value, argument(span, 1, "value")), span=span)
         self._keep(ident.text, "type", lambda: node)
@@ -106,8 +108,9 @@ class Theory(Declaring):
         that is called with the variables.
         """
         if not isinstance(what, str):
+            left_to_the_function(type=type, value=value, parameters=parameters)
             return self._decorated(what, name, "static", declarations.static)
-        ident, span = named(what)
+        ident, span = named(what, name)
         heads, place = parameters_of(parameters, span), argument(span, 2, "value")
         meant, returned = applied(needed(value, span), heads, span), typed(type, span)
         if isinstance(meant, dict):
@@ -137,8 +140,9 @@ class Theory(Declaring):
         is as for ``static``.
         """
         if not isinstance(what, str):
+            left_to_the_function(type=type, initial=initial, parameters=parameters)
             return self._decorated(what, name, "fluent", declarations.fluent)
-        ident, span = named(what)
+        ident, span = named(what, name)
         heads, place = parameters_of(parameters, span), argument(span, 2, "initial")
         value = None if initial is MISSING else value_expr(applied(initial, heads, span), place)
         return self._add(tree.Fluent(ident, heads, typed(type, span), value, span=span), "fluent", heads)

@@ -38,24 +38,23 @@ def check_limits(
             subs[SUBS].span,
             help="make some of them functions: `void` instead of `sub`",
         )
-    _check_variables(program, user, where, findings)
+    _check_variables(program, user, target, where, findings)
     if target is Target.RCX:
         _check_shared_subs(program, user, findings)
 
 
-def _check_variables(program: Program, user: NqcSource, where: Span, findings: Findings) -> None:
+def _check_variables(program: Program, user: NqcSource, target: Target, where: Span, findings: Findings) -> None:
     """Global variables alone; those inside tasks and functions are nqc's to place."""
     own = program.variables
-    total = LOOP_VARIABLES + 1 + len(own) + len(user.variables)
+    # Where tasks have no variables of their own, the event loop calculates in one more.
+    loop = LOOP_VARIABLES + (1 if target.locals else 2)
+    total = loop + len(own) + len(user.variables)
     if total > VARIABLES:
         findings.error(
             Code.NQC_LIMIT,
             f"the program has {total} variables, but a brick has {VARIABLES}",
             where,
-            notes=(
-                f"the event loop has {LOOP_VARIABLES + 1}, events and arguments {len(own)}, "
-                f"the NQC files {len(user.variables)}",
-            ),
+            notes=(f"the event loop has {loop}, events and arguments {len(own)}, the NQC files {len(user.variables)}",),
             help="each exogenous action of the brick takes one for each combination of its arguments"
             if len(own) > len(user.variables)
             else "make variables local to a task or a function",

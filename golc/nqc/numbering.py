@@ -7,7 +7,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
 
-from golc.diagnostics import Code, Findings, Label
+from golc.diagnostics import Code, Findings, Label, UserError
 from golc.nqc.actionmap import DEFAULT_TIMEOUT, LARGEST, ActionMap, Entry, value_number
 from golc.nqc.wire import wire_of
 from golc.theory.fitting import size
@@ -15,7 +15,7 @@ from golc.theory.forms import name_text, type_text, word
 from golc.theory.theory import Action, BasicActionTheory, Binding, ByCall, Device, Parameter
 from golc.theory.types import INT, Interval, Optional, Type, show
 
-__all__ = ["ActionMap", "Entry", "implied", "number_device"]
+__all__ = ["ActionMap", "Entry", "implied", "number_bricks", "number_device"]
 
 
 def number_device(theory: BasicActionTheory, device: Device, findings: Findings) -> ActionMap:
@@ -32,6 +32,15 @@ def number_device(theory: BasicActionTheory, device: Device, findings: Findings)
         _check_arguments(entry, findings)
         _check_results(theory.actions[entry.action], entry, findings)
     return ActionMap(device, tuple(sorted(entries, key=lambda entry: entry.first)), wire_of(device))
+
+
+def number_bricks(theory: BasicActionTheory) -> dict[str, ActionMap]:
+    """The numbers of each brick by its name; raises ``UserError`` if those of one make no sense."""
+    findings = Findings()
+    maps = {brick.name: number_device(theory, brick, findings) for brick in theory.bricks}
+    if findings.has_errors:
+        raise UserError(*findings.diagnostics)
+    return maps
 
 
 def implied(theory: BasicActionTheory, device: Device) -> Iterator[Binding]:

@@ -16,6 +16,7 @@ from golc.program.prunes import Prunes
 from golc.situation.dynamics import Dynamics, Outcome
 from golc.situation.worlds import State
 from golc.theory.fitting import MOST_INSTANCES, combinations
+from golc.theory.forms import type_text
 from golc.theory.theory import Action
 
 
@@ -105,7 +106,7 @@ def _check_finite(actions: list[Action]) -> None:
                         Code.BAD_TYPE,
                         message,
                         parameter.span,
-                        marker=f"`{parameter.type}` has no end",
+                        marker=f"`{type_text(parameter.type, parameter.span)}` has no end",
                         help="give it an interval or an enumeration as its type, or plan with a procedure",
                     )
                 )

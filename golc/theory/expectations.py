@@ -6,7 +6,7 @@ from golc.diagnostics import Code, Span
 from golc.theory.blame import Matter, Suspect
 from golc.theory.context import Context
 from golc.theory.fitting import BROKEN, collection, may_be, overlap, strip_optional
-from golc.theory.forms import describe, type_text, word
+from golc.theory.forms import describe, joined_tightly, type_text, word
 from golc.theory.terms import (
     Comprehension,
     DefinedTerm,
@@ -103,7 +103,7 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     if found.type == STRING and what == "`+`":
         help_ = f'`{found.span.either("", "f")}"{{…}}{{…}}"` puts texts together'
     elif found.type == BOOL and what == "`sum`" and found.span.source.python:
-        help_ = f"write `count({shown(found)} for …)` for how often it is true"
+        help_ = "`count(φ for n in station)` is how often something is true"
     elif isinstance(found, Operation) and found.type == BOOL and what in AGGREGATES and not found.span.source.python:
         help_ = parentheses(what.strip("`"))
     mismatch(context, found, "a number", what, help_)
@@ -140,7 +140,8 @@ def cure(found: Term, needed: Type) -> str | None:
         text = shown(found)
         return f"compare it: `{text} != {empty}`; ask: `x in {text}`; `+` joins it with another"
     if needed == BOOL:
-        return f"compare it: `{shown(found)} {place.either('=', '==')} …`"
+        compared = f"{shown(found)} {place.either('=', '==')} …"
+        return f"compare it: `{f'({compared})' if joined_tightly(place) else compared}`"
     if have and want and have.kind != want.kind and not have.element.kinds:
         return f"the empty {want.kind} is `{place.either('{}', 'set()') if want.kind == 'set' else '[]'}`"
     if have and want and have.kind != want.kind:
@@ -161,7 +162,8 @@ def _without_quotes(found: Term, needed: Type) -> str:
         return "values of an enumeration stand without quotes"
     if not isinstance(found, Literal):
         return "a string of Python is no symbol"
-    symbol = f"{needed}.{found.value}" if str(needed).isidentifier() else f'symbols("{found.value}")'
+    owner = str(strip_optional(needed))
+    symbol = f"{owner}.{found.value}" if owner.isidentifier() else f'symbols("{found.value}")'
     return f"a string of Python is no symbol: write `{symbol}`"
 
 

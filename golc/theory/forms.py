@@ -13,7 +13,6 @@ from golc.theory.types import BOOL, Collection, Enumeration, Interval, Optional,
 PYTHON_TYPES = {"bool": "bool", "int": "int", "string": "str", "real": "float"}
 
 SIGNS = {
-    "=": ("==",),
     "and": ("and", "&"),
     "or": ("or", "|"),
     "not": ("not", "~"),
@@ -94,6 +93,14 @@ def sign(text: str, place: Span) -> str:
         return text
     there = _SIGN.findall(place.text)
     return next((each for each in SIGNS[text] if each in there), SIGNS[text][0])
+
+
+def joined_tightly(place: Span) -> bool:
+    """Whether Python's ``&``, ``|`` or ``~`` stands beside a term: they bind more tightly than comparisons."""
+    text = place.source.text
+    return place.source.python and bool(
+        re.search(r"[&|~]\s*\Z", text[: place.start]) or re.match(r"\s*[&|]", text[place.end :])
+    )
 
 
 def is_call(name: Span) -> bool:

@@ -238,6 +238,11 @@ class BasicActionTheory:
     """The Python files of its functions and devices."""
 
     @property
+    def bricks(self) -> tuple[Device, ...]:
+        """The devices of kind ``rcx``."""
+        return tuple([device for device in self.devices if device.kind == "rcx"])
+
+    @property
     def symbols(self) -> frozenset[Value]:
         """Every symbol of every enumeration."""
         return frozenset(

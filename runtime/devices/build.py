@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from golc.diagnostics import DeviceError, Findings, UserError
-from golc.nqc.numbering import ActionMap, implied, number_device
+from golc.diagnostics import DeviceError
+from golc.nqc.numbering import ActionMap, implied, number_bricks
 from golc.runtime.devices.base import Device
 from golc.runtime.devices.bricks import Link, RcxDevice
 from golc.runtime.devices.desk import Desk
@@ -31,18 +31,8 @@ def build_devices(theory: BasicActionTheory, surroundings: Surroundings) -> list
 
     Raises ``UserError`` if the numbers of a brick make no sense.
     """
-    maps = brick_maps(theory)
+    maps = number_bricks(theory)
     return [_build(theory, device, maps, surroundings) for device in theory.devices]
-
-
-def brick_maps(theory: BasicActionTheory) -> dict[str, ActionMap]:
-    """The numbers of each brick by its name."""
-    findings = Findings()
-    bricks = [device for device in theory.devices if device.kind == "rcx"]
-    maps = {device.name: number_device(theory, device, findings) for device in bricks}
-    if findings.has_errors:
-        raise UserError(*findings.diagnostics)
-    return maps
 
 
 def _build(

@@ -14,16 +14,15 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 
-from golc.diagnostics import Code, DeviceError, Diagnostic, Label, ProgramError
+from golc.diagnostics import Code, DeviceError, Diagnostic, ProgramError
 from golc.planning.limits import GivenUpSearchError
 from golc.planning.planner import Executable
-from golc.program.blame import Blocked as Why
-from golc.program.blame import valued
 from golc.program.circles import CIRCLES, runs_in_circles
 from golc.program.labels import Abort, Act, Clock, Say, Silent, Wait
 from golc.program.nodes import Node
 from golc.runtime import clock as clocks
 from golc.runtime.devices.base import Args, Device, GivenUpError, Router
+from golc.runtime.loop.blockage import blockage
 from golc.runtime.loop.ending import release, verdict_on
 from golc.runtime.loop.happenings import (
     Begun,
@@ -175,21 +174,27 @@ class Executive(Intake):
             return False
         after = self.dynamics.progress(self.state, label.action, label.args)  # an error of the theory moves no robot
         device = self._router.device(label.action, label.args)
+        try:
+            performed = self._perform(label, device)
+        except DeviceError as error:
+            self._cope(label, error)
+            return False
+        if performed is None:
+            return False
+        self._apply(label, after, *performed)
+        return True
+
+    def _perform(self, label: Act, device: Device) -> tuple[Args, float] | None:
+        """Have a device do an action; its sensing results and when it began, or none if it is to be decided anew."""
         self._engaged = device.interrupt
         try:
             with device.free():
                 if self._inbox.items:  # something has happened since the decision
-                    self._engaged = None
-                    return False
+                    return None
                 began = self._begin(label, device)
-                results = device.perform(label.action, label.args)
-        except DeviceError as error:
+                return device.perform(label.action, label.args), began
+        finally:
             self._engaged = None
-            self._cope(label, error)
-            return False
-        self._engaged = None
-        self._apply(label, after, results, began)
-        return True
 
     def _begin(self, label: Act, device: Device) -> float:
         """Tell that an action begins; when that was, if anybody listens."""
@@ -277,7 +282,9 @@ class Executive(Intake):
         if self._until_event():
             self._failed.clear()
         elif self._verdict is None:
-            raise self._why(node)
+            if self._failed and self._last_failure is not None:
+                raise self._last_failure
+            raise blockage(self, self.machine.why_blocked(node, self.state), node.rule.span, bool(self._open()))
 
     def _until_event(self) -> bool:
         """Take in what comes until an exogenous action was applied, or the program is to be asked again by the clock.
@@ -307,30 +314,3 @@ class Executive(Intake):
     def _open(self) -> tuple[str, ...]:
         """The sources that have not ended and may report an exogenous action of this domain."""
         return tuple(source.name for source in self._reporting if not source.ended)
-
-    def _why(self, node: Node) -> Exception:
-        """The error of a program that is blocked for good: each branch with its condition and the values it had."""
-        if self._failed and self._last_failure is not None:
-            return self._last_failure
-        branches = self.machine.why_blocked(node, self.state)
-        span = branches[0].span if branches else node.rule.span
-        marker = valued(branches[0]) if branches else ""
-        labels = tuple(Label(branch.span, valued(branch)) for branch in branches[1:])
-        open_ = self._open()
-        message = "the program is blocked" + ("" if open_ else ", and no source is open that could report anything")
-        notes = tuple(note for branch in branches if (note := self._since_the_plan(branch)))
-        return ProgramError(Diagnostic(Code.BLOCKED, message, span, marker=marker, labels=labels, notes=notes))
-
-    def _since_the_plan(self, branch: Why) -> str | None:
-        """Where a plan of ``search`` was lost, the exogenous actions since it was made."""
-        if branch.actions is None:
-            return None
-        own, events = 0, []
-        for item in reversed(self.history):
-            if not isinstance(item, Act):
-                events.append(self.dynamics.call(item.action, item.args))
-                continue
-            own += 1
-            if own >= branch.actions:  # the first action of the plan, or the last one before it
-                break
-        return f"exogenous actions since the plan was made: {', '.join(reversed(events))}" if events else None

@@ -129,6 +129,8 @@ class Refused(Happening):
 
 @dataclass(frozen=True, slots=True)
 class SourceEnded(Happening):
+    """A source will report nothing any more."""
+
     source: str
 
 

@@ -110,11 +110,6 @@ class Inbox:
         if isinstance(item, Command):
             self.hasten(item)
 
-    @property
-    def commanded(self) -> bool:
-        """Whether the operator wants something."""
-        return any(isinstance(item, Command) for item in tuple(self.items))
-
     def wait(self, timeout: float | None = None) -> bool:
         """Wait until there is an item, at most for some seconds; whether there is one."""
         self._arrived.clear()

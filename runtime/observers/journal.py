@@ -10,7 +10,7 @@ import hashlib
 import json
 import os
 import stat
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from datetime import UTC, datetime
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
@@ -18,25 +18,8 @@ from typing import Any
 
 from golc.diagnostics import DeviceError, Diagnostic
 from golc.program.blame import Blocked as Why
-from golc.runtime.loop.happenings import (
-    Begun,
-    Blocked,
-    Done,
-    Dropped,
-    Ended,
-    Failed,
-    Happening,
-    Refused,
-    Remedied,
-    Reset,
-    Said,
-    SourceEnded,
-    Started,
-    Stepped,
-    TakenIn,
-    Waiting,
-)
-from golc.situation.dynamics import Dynamics
+from golc.runtime.loop import happenings as hp
+from golc.situation.dynamics import Dynamics, Surprise
 from golc.syntax.text import unwritable
 from golc.theory.theory import BasicActionTheory
 from golc.theory.types import Value, writable
@@ -44,10 +27,59 @@ from golc.theory.types import Value, writable
 FORMAT = 1
 """The version of the records."""
 
+EVENTS: Mapping[type[hp.Happening], tuple[str, ...]] = {
+    hp.Started: ("start", "state"),
+    hp.Stepped: ("test", "span"),
+    hp.Said: ("say", "text", "span"),
+    hp.Begun: ("begin", "action", "args", "device", "span"),
+    hp.Done: ("done", "action", "args", "results", "duration", "surprises"),
+    hp.Failed: ("failed", "action", "args", "error"),
+    hp.Remedied: ("remedy", "action", "args", "remedy"),
+    hp.TakenIn: ("exogenous", "action", "args", "source", "impossible"),
+    hp.Dropped: ("dropped", "action", "args", "source", "reason"),
+    hp.Refused: ("refused", "text", "source", "diagnostics"),
+    hp.SourceEnded: ("source ended", "source"),
+    hp.Waiting: ("wait", "span"),
+    hp.Blocked: ("blocked", "reasons", "sources"),
+    hp.Reset: ("reset", "source"),
+    hp.Ended: ("end", "end", "message", "state", "actions", "exogenous", "unstopped"),
+}
+"""The name of each event, and the fields of the happening that are in its record."""
+
+
+def _said(diagnostics: Iterable[Diagnostic]) -> list[str]:
+    return [each.message + (f"; {each.help}" if each.help else "") for each in diagnostics]
+
+
+def _why(reasons: Iterable[Why]) -> list[dict[str, object]]:
+    return [{"at": str(each.span), "text": each.text, "values": dict(each.values)} for each in reasons]
+
+
+def _unexpected(surprises: Iterable[Surprise]) -> dict[str, Value]:
+    return {surprise.fluent or "?": surprise.sensed for surprise in surprises}
+
+
+WRITTEN: Mapping[str, tuple[str, Callable[[Any], object]]] = {
+    "span": ("at", str),
+    "error": ("error", str),
+    "remedy": ("remedy", lambda remedy: remedy.value),
+    "end": ("reason", lambda end: end.value),
+    "duration": ("duration", lambda seconds: round(seconds, 6)),
+    "diagnostics": ("errors", _said),
+    "reasons": ("reasons", _why),
+    "surprises": ("surprises", _unexpected),
+    "unstopped": ("unstopped", dict),
+}
+"""The fields that a record has under another name or in another form; what is left out if nothing is in it follows."""
+OPTIONAL = ("surprises", "unstopped")
+
 
 def fingerprint(theory: BasicActionTheory) -> str:
-    """A short text that differs for theories that differ: made of the file's text and the values of the constants."""
-    facts = [theory.source.text, *(f"{name}={constant.value!r}" for name, constant in theory.constants.items())]
+    """A short text that differs for theories that differ: made of their texts and the values of their constants."""
+    tables = (theory.constants, theory.statics, theory.fluents, theory.definitions, theory.actions, theory.procedures)
+    sources = dict.fromkeys([theory.source, *(entry.span.source for table in tables for entry in table.values())])
+    constants = [f"{name}={constant.value!r}" for name, constant in theory.constants.items()]
+    facts = [*(source.text for source in sources), *constants]
     return hashlib.sha256("\0".join(facts).encode()).hexdigest()[:16]
 
 
@@ -64,7 +96,7 @@ class Journal:
         self._size = 0
         self._file = _create(path)
 
-    def __call__(self, happening: Happening) -> None:
+    def __call__(self, happening: hp.Happening) -> None:
         self.write({"time": round(happening.time, 6), **self._record(happening)})
 
     def write(self, record: Mapping[str, object]) -> None:
@@ -82,48 +114,26 @@ class Journal:
         raise DeviceError(f"cannot write the journal {self._path}: {reason}")
 
     def close(self) -> None:
+        """Let go of the file."""
         os.close(self._file)
 
-    def _record(self, happening: Happening) -> dict[str, object]:
-        match happening:
-            case Started(state=state):
-                return {**self._header(), "state": self._dynamics.show(state)}
-            case Stepped(span=span):
-                return {"event": "test", "at": str(span)}
-            case Begun(device=device, span=span):
-                return {"event": "begin", **_call(happening), "device": device, "at": str(span)}
-            case Done(results=results, duration=duration, surprises=surprises):
-                unexpected = {surprise.fluent or "?": surprise.sensed for surprise in surprises}
-                return {
-                    "event": "done",
-                    **_call(happening),
-                    "results": list(results),
-                    "duration": round(duration, 6),
-                    **({"surprises": unexpected} if unexpected else {}),
-                }
-            case TakenIn(source=source, impossible=impossible):
-                return {"event": "exogenous", **_call(happening), "source": source, "impossible": impossible}
-            case Waiting(span=span):
-                return {"event": "wait", "at": str(span)}
-            case Ended(
-                end=end, message=message, state=state, actions=actions, exogenous=exogenous, unstopped=unstopped
-            ):
-                return {
-                    "event": "end",
-                    "reason": end.value,
-                    "message": message,
-                    "state": self._dynamics.show(state),
-                    "actions": actions,
-                    "exogenous": exogenous,
-                    **({"unstopped": dict(unstopped)} if unstopped else {}),
-                }
-            case _:
-                return _rare(happening)
+    def _record(self, happening: hp.Happening) -> dict[str, object]:
+        event, *fields = EVENTS[type(happening)]
+        record: dict[str, object] = {"event": event}
+        if isinstance(happening, hp.Started):
+            record |= self._header()
+        for field in fields:
+            value = getattr(happening, field)
+            if field == "state":
+                record[field] = self._dynamics.show(value)
+            elif value or field not in OPTIONAL:
+                name, written = WRITTEN.get(field, (field, None))
+                record[name] = value if written is None else written(value)
+        return record
 
     def _header(self) -> dict[str, object]:
         theory = self._dynamics.theory
         return {
-            "event": "start",
             "format": FORMAT,
             "golc": _version(),
             "at": datetime.now(UTC).isoformat(timespec="milliseconds"),
@@ -132,40 +142,6 @@ class Journal:
             "fingerprint": fingerprint(theory),
             **self._program,
         }
-
-
-def _rare(happening: Happening) -> dict[str, object]:
-    match happening:
-        case Said(text=text, span=span):
-            return {"event": "say", "text": text, "at": str(span)}
-        case Failed(error=error):
-            return {"event": "failed", **_call(happening), "error": str(error)}
-        case Remedied(remedy=remedy):
-            return {"event": "remedy", **_call(happening), "remedy": remedy.value}
-        case Dropped(source=source, reason=reason):
-            return {"event": "dropped", **_call(happening), "source": source, "reason": reason}
-        case Refused(text=text, source=source, diagnostics=diagnostics):
-            return {"event": "refused", "text": text, "source": source, "errors": [_said(d) for d in diagnostics]}
-        case SourceEnded(source=source):
-            return {"event": "source ended", "source": source}
-        case Blocked(reasons=reasons, sources=sources):
-            return {"event": "blocked", "reasons": [_why(reason) for reason in reasons], "sources": list(sources)}
-        case Reset(source=source):
-            return {"event": "reset", "source": source}
-        case _:
-            raise TypeError(f"no record for {happening!r}")
-
-
-def _call(happening: Begun | Done | Failed | Remedied | TakenIn | Dropped) -> dict[str, object]:
-    return {"action": happening.action, "args": list(happening.args)}
-
-
-def _said(diagnostic: Diagnostic) -> str:
-    return diagnostic.message + (f"; {diagnostic.help}" if diagnostic.help else "")
-
-
-def _why(reason: Why) -> dict[str, object]:
-    return {"at": str(reason.span), "text": reason.text, "values": dict(reason.values)}
 
 
 def _version() -> str:
@@ -186,21 +162,3 @@ def _create(path: Path) -> int:
         os.close(file)
         raise FileExistsError(path)
     return file
-
-
-def read_journal(path: Path) -> Iterator[dict[str, Any]]:
-    """The records of a journal; a last line that is not whole is left out, as after a loss of power.
-
-    Raises ``DeviceError`` for any other line that is no record.
-    """
-    lines = path.read_bytes().split(b"\n")
-    for number, line in enumerate(lines, 1):
-        try:
-            record = json.loads(line)
-            if not isinstance(record, dict):
-                raise ValueError("no object")
-        except ValueError as error:
-            if number == len(lines):
-                return
-            raise DeviceError(f"line {number} of {path} is no record of a journal: {error}") from error
-        yield record

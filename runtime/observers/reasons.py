@@ -23,15 +23,14 @@ class Reasons:
     """Looks up the statements of a theory by their places."""
 
     def __init__(self, theory: BasicActionTheory) -> None:
-        self._where: dict[tuple[int, int], Where] = {}
+        self._where: dict[Span, Where] = {}
         for procedure in theory.procedures.values():
             for statement, condition in _statements(procedure.body):
-                place = (statement.span.start, statement.span.end)
-                self._where.setdefault(place, Where(procedure.name, condition))
+                self._where.setdefault(statement.span, Where(procedure.name, condition))
 
     def where(self, span: Span) -> Where:
         """What is known about the statement at a place."""
-        return self._where.get((span.start, span.end), Where("", ""))
+        return self._where.get(span, Where("", ""))
 
     def line(self, span: Span) -> str:
         """The place in a few words: file, line and procedure."""

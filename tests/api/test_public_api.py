@@ -170,6 +170,7 @@ def test_a_state_is_a_mapping_from_ground_fluents(lift: golc.Theory) -> None:
         ("ta", "unknown fluent `ta`: did you mean `at`?"),
         ("lit", "the fluent is `lit(n: floor)`"),
         (("lit", 4), "the fluent is `lit(n: floor)`"),
+        (("lit", 2, 3), "the fluent is `lit(n: floor)`"),
         (("at", 1), "the fluent `at` has no arguments"),
         ((), "unknown fluent ``"),
     ],

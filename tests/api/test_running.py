@@ -14,6 +14,7 @@ import golc
 from golc.api.theory import Theory
 from golc.diagnostics import Findings, Source
 from golc.loading import examine_file
+from golc.runtime.settings import Settings
 from golc.syntax.parse import parse_file
 
 ROOT = Path(__file__).parents[2]
@@ -155,6 +156,8 @@ def test_what_cannot_be_run_is_a_user_error_whatever_is_checked(
     ("options", "problem"),
     [
         ({"speed": 0}, "the speed is 0, and has to be from 0.01 to 1000"),
+        ({"speed": 0.0099}, "the speed is 0.0099, and has to be from 0.01 to 1000"),
+        ({"speed": 1001}, "the speed is 1001, and has to be from 0.01 to 1000"),
         ({"stop_when_idle": -1}, "stop_when_idle is -1, and has to be a number of seconds from 0"),
         ({"stop_when_idle": float("nan")}, "stop_when_idle is nan, and has to be a number of seconds from 0"),
         ({"listen": ("127.0.0.1", 65536)}, "the port to listen at is 65536, and has to be from 0 to 65535"),
@@ -248,3 +251,8 @@ def test_a_theory_that_is_in_no_file_runs_on_a_simulated_brick() -> None:
     assert run.history[1].source == "rcx"
     assert run.state["at"] == 2
     assert run.seconds > 2
+
+
+def test_settings_at_their_limits() -> None:
+    assert [Settings(speed=speed).speed for speed in (0.01, 1000)] == [0.01, 1000]
+    assert Settings(stop_when_idle=0, listen=("127.0.0.1", 65535)).stop_when_idle == 0

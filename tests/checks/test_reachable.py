@@ -161,12 +161,31 @@ def test_parameters_without_end_that_make_few_states(tmp_path: Path, parameter: 
     assert str(examined(tmp_path, text).scope) == scope
 
 
+def test_effects_that_contradict_each_other_lead_nowhere(tmp_path: Path) -> None:
+    text = f"{SWITCH}\nexog far(n: int):\n    causes x := 5 when n > 3\n    causes x := 4 when n > 3\n"
+    done = examined(tmp_path, text)
+    assert str(done.scope) == "in all 4 states that can be reached"
+    assert [finding.message for finding in done.findings] == ["`far` may give `x` two values at once"]
+
+
 def test_an_integer_without_end_that_is_an_argument_of_a_fluent(tmp_path: Path) -> None:
     text = f"{SWITCH}\nfluent called(n: 4..6): bool = false\nexog call(n: int):\n    causes called(n) := true\n"
     done = examined(tmp_path, text)
     assert str(done.scope) == "in all 32 states that can be reached"
     assert [finding.notes for finding in done.findings] == [
         ("for example when `call(0)` happens, in any situation", "this is so at first")
+    ]
+
+
+def test_nothing_is_reached_through_a_state_in_which_an_invariant_is_false(tmp_path: Path) -> None:
+    text = "domain trial\n\nfluent x: 0..9 = 0\n\ninvariant low: x < 3\n\naction inc:\n    causes x := x + 1\n"
+    done = examined(tmp_path, text)
+    assert str(done.scope) == "in all 3 states that can be reached"
+    assert [(finding.message, finding.notes) for finding in done.findings] == [
+        (
+            "`inc` may break invariant `low`",
+            ("for example when x = 2 and `inc` is done", "this is reached by `inc`, `inc`"),
+        )
     ]
 
 

@@ -138,3 +138,34 @@ def test_standard_output_of_a_theory_is_no_part_of_the_domain(folder: Path, caps
 
     assert invoke(["convert", "light.py"]) == 0
     assert capsys.readouterr().out == GOLC
+
+
+def test_files_are_named_from_the_folder_of_the_target(folder: Path) -> None:
+    for name in ("lib", "out"):
+        (folder / name).mkdir()
+    (folder / "lib" / "base.gl").write_text("domain base\n\ntype floor = 1..3\n")
+    (folder / "lib" / "parts.py").write_text(
+        "from golc.embed import Theory\n"
+        'theory = Theory("parts")\n'
+        'theory.import_("base.gl")\n'
+        '@theory.extern(file="far.py")\n'
+        "def far() -> int: ...\n"
+        '@theory.device("rcx", file="brick.nqc")\n'
+        "def brick():\n    pass\n"
+        '@theory.device("host", file="/tools/hands.py", name="h")\n'
+        "def hands():\n    pass\n"
+    )
+    (folder / "whole.py").write_text(
+        'from golc.embed import Theory\nfrom lib import parts\ntheory = Theory("whole")\ntheory.include(parts.theory)\n'
+    )
+    texts = []
+    for source, target in (("whole.py", "new.gl"), ("whole.py", "out/new.gl"), ("out/new.gl", "lib/new.py")):
+        assert invoke(["convert", "-q", source, target]) == 0
+        texts.append((folder / target).read_text())
+
+    assert texts[0] == (
+        'domain whole\n\nimport "lib/base.gl"\n\nextern far: int from "lib/far.py"\n\n'
+        'device rcx "lib/brick.nqc"\ndevice host h "/tools/hands.py"\n'
+    )
+    assert texts[1] == texts[0].replace('"lib/', '"../lib/')
+    assert [name in texts[2] for name in ('_("base.gl")', 'file="far.py"', 'file="brick.nqc"')] == [True] * 3

@@ -94,6 +94,11 @@ PROPOSED = {
         "if it is never so, say it: `theory.initially(…)`",
         'lit = theory.fluent("lit", bool, unknown)\ntheory.initially(~lit)\ntheory.invariant("dark", ~lit)',
     ),
+    "a comparison beside a sign": (
+        'on = theory.fluent("on", bool, True)\nat = theory.fluent("at", station, 1)\ntheory.goal("g", on & at)',
+        "compare it: `(at == …)`",
+        'on = theory.fluent("on", bool, True)\nat = theory.fluent("at", station, 1)\ntheory.goal("g", on & (at == 1))',
+    ),
     "what does not depend on a variable": (
         'lit = theory.fluent("lit", bool, True)\n'
         "@theory.invariant\ndef well():\n    return any(n == 3 or lit for n in station)",

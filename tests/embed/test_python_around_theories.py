@@ -9,6 +9,7 @@ import pytest
 
 from golc.diagnostics import Diagnostic
 from golc.embed.modules import read_theory
+from golc.loading import examine
 from golc.syntax.unparse import unparse
 
 Text = Callable[[str], str]
@@ -250,6 +251,21 @@ def test_parts_come_from_another_module(tmp_path: Path) -> None:
         "proc control:\n    if at = 1:\n        up\n"
     )
     assert [Path(source.name).name for source in written.sources] == ["whole.py", "parts.py"]
+
+
+def test_a_module_in_another_folder_imports_what_lies_beside_it(tmp_path: Path) -> None:
+    (tmp_path / "lib").mkdir()
+    (tmp_path / "lib" / "base.gl").write_text("domain base\ntype floor = 1..3\n")
+    (tmp_path / "lib" / "parts.py").write_text(
+        'from golc.embed import Theory\ntheory = Theory("parts")\ntheory.import_("base.gl")\n'
+    )
+    (tmp_path / "whole.py").write_text(
+        "from golc.embed import Theory, types\nfrom lib import parts\n"
+        'theory = Theory("whole")\ntheory.include(parts.theory)\n'
+        'at = theory.fluent("at", types("floor"), 3)\ntheory.goal("top", at == 3)\n'
+    )
+
+    assert [finding.message for finding in examine(tmp_path / "whole.py").findings] == []
 
 
 def test_a_docstring_and_an_ellipsis_say_nothing(text_of: Text) -> None:

@@ -260,6 +260,18 @@ def test_the_body_of_a_function_does_not_see_the_names_of_the_class_around_it(te
             'theory.action("fly")',
             "the name of what is declared is that of its function, or given by `name=`",
         ),
+        (
+            "@theory.fluent(initial=3)\ndef f(r: room) -> int: ...\n",
+            "3",
+            "`initial` is what the function says",
+        ),
+        (
+            "@theory.static(type=int, parameters={'r': room})\ndef s(r):\n    return 3\n",
+            "int",
+            "`type` is what the function says",
+        ),
+        ("@theory.const(value=2)\ndef c():\n    return 3\n", "2", "`value` is what the function says"),
+        ('theory.fluent("f", int, 1, name="g")\n', '"g"', "this has its name already"),
         ("@theory.axiom(3)\ndef a():\n    pass\n", "theory.axiom(3)", "a Python value of type `int` cannot be a name"),
     ],
 )
@@ -375,7 +387,7 @@ def test_a_file_may_go_into_another_folder(text_of: Text, tmp_path: Path) -> Non
         ("power", "compare it: `power == …`"),
         ("not 3", "a truth value is `True` or `False`"),
         ("not {at}", "compare it: `{at} != set()`; ask: `x in {at}`; `+` joins it with another"),
-        ("sum(light(r) == 1 for r in room) == 2", "write `count(light(r) == 1 for …)` for how often it is true"),
+        ("sum(light(r) == 1 for r in room) == 2", "`count(φ for n in station)` is how often something is true"),
     ],
 )
 def test_help_with_types_speaks_python(tmp_path: Path, condition: str, help_: str) -> None:

@@ -249,6 +249,12 @@ def test_a_mistake_in_the_nqc_file_is_one_finding(check: Check, old: str, new: s
     assert check(DOMAIN, NQC.replace(old, new, 1)) == found
 
 
+def test_loops_without_rest_are_found_one_by_one_and_the_innermost_alone(check: Check) -> None:
+    loops = "while (SENSOR_2 == 0) { } while (SENSOR_2 == 1) { while (SENSOR_3 == 0) { } }"
+    found = check(DOMAIN, NQC.replace("while (true)", f"{loops} while (true)"))
+    assert [line for line in found if line.startswith("robot.nqc")] == ["robot.nqc:3:16", "robot.nqc:3:66"]
+
+
 def test_stubs_that_somebody_has_filled_in_count(check: Check, tmp_path: Path) -> None:
     (tmp_path / "build").mkdir()
     (tmp_path / "build" / "robot-rcx-stubs.nqc").write_text("void ringAt(int b) { Wait(b); }\n")

@@ -159,12 +159,16 @@ def test_too_many_tasks_are_found_before_compiling(workshop: Workshop) -> None:
 def test_too_many_subs_are_found_at_the_first_that_does_not_fit(workshop: Workshop) -> None:
     (error,) = refused(workshop, GO + "".join(f"sub s{number}() {{ Wait(1); }}\n" for number in range(9)))
     assert (error.code, error.span.text) == (Code.NQC_LIMIT, "s8")
+    workshop.write("robot.nqc", GO + "".join(f"sub s{number}() {{ Wait(1); }}\n" for number in range(8)))
+    assert workshop.compile(ROBOT).image.size > 0
 
 
-@BOTH
-def test_too_many_variables_are_found_before_compiling(workshop: Workshop, target: Target) -> None:
-    (error,) = refused(workshop, GO + "".join(f"int v{number};\n" for number in range(18)), target)
+@pytest.mark.parametrize(("target", "most"), [(Target.RCX, 16), (Target.RCX2, 17)])
+def test_too_many_variables_are_found_before_compiling(workshop: Workshop, target: Target, most: int) -> None:
+    (error,) = refused(workshop, GO + "".join(f"int v{number};\n" for number in range(most + 1)), target)
     assert (error.code, error.message) == (Code.NQC_LIMIT, "the program has 33 variables, but a brick has 32")
+    workshop.write("robot.nqc", GO + "".join(f"int v{number};\n" for number in range(most)))
+    assert workshop.compile(ROBOT, target).image.size > 0
 
 
 def test_too_many_events_are_found_with_what_to_do(workshop: Workshop) -> None:

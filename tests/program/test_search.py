@@ -324,6 +324,7 @@ def test_a_negative_cost_is_an_error_with_its_place(start: Start) -> None:
     assert diagnostic.code is Code.VALUE_OUTSIDE_TYPE
     assert diagnostic.message == "the cost of `fly` would be -2, but a cost is at least 0"
     assert diagnostic.span.text == "3 - x"
+    assert start("search cheapest:\n    fly", COSTS).event("set_x", 3).run() == ["fly"]
 
 
 def test_a_bound_on_steps_that_is_reached_is_the_reason(start: Start) -> None:

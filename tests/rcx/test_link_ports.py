@@ -113,7 +113,7 @@ def test_a_far_end_that_closes_in_the_middle_is_gone(small_brick: SmallBrick, ki
 
 
 def test_a_silent_brick_behind_a_pty(small_brick: SmallBrick) -> None:
-    far = small_brick("pty", {})
+    far = small_brick("pty", {}, "echo")
     with Brick(open_tower(far.port, FAST)) as brick, pytest.raises(SilentBrickError):
         brick.perform(4)
     assert far.heard().count(36) >= 4

@@ -5,11 +5,13 @@ from __future__ import annotations
 import contextlib
 import re
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import pytest
 
 from golc.diagnostics import DeviceError, Diagnostic
+from golc.loading import load
 from golc.runtime.loop.happenings import Remedy
 from golc.runtime.loop.inbox import Closed, Refusal, Report
 from golc.runtime.loop.policy import Policy
@@ -69,6 +71,18 @@ def test_the_beginning_of_a_delivery(start: Start, delivery: BasicActionTheory) 
         "           holding_delivery_for holds for nothing",
         "           every delivery_requested = none",
     ]
+
+
+def test_statements_of_two_files_are_not_taken_for_each_other(start: Start, tmp_path: Path) -> None:
+    main = 'domain main\nimport "part.gl"\nproc control:\n    step\n    other\n'
+    part = "domain part\n# rest\naction step\nproc other:\n    step\n"
+    assert main.rindex("step") == part.rindex("step")
+    (tmp_path / "main.gl").write_text(main)
+    (tmp_path / "part.gl").write_text(part)
+
+    lines = traced(start(load(tmp_path / "main.gl")))
+
+    assert [line.split()[-2:] for line in lines if "→" in line] == [["main.gl:4", "control"], ["part.gl:5", "other"]]
 
 
 def test_it_fits_a_terminal_without_unicode(start: Start, delivery: BasicActionTheory) -> None:
@@ -197,6 +211,7 @@ def test_the_traceback_of_foreign_code_needs_v(start: Start) -> None:
     [
         ("type t = 1..3\nfluent f(a: t): t = 2", ["every f = 2"]),
         ("type t = 1..3\nfluent f(a: t): int = a // 3", ["f(1) = 0, f(2) = 0, f(3) = 1"]),
+        ("type t = 1..4\nfluent f(a: t): int = a // 4", ["f(1) = 0, f(2) = 0, f(3) = 0, f(4) = 1"]),
         ("type t = 1..5\nfluent f(a: t): int = a // 5", ["f(5) = 1, all other f = 0"]),
         ("type t = 1..2\nfluent f(a: t, b: t) = a < b", ["f holds for (1, 2)"]),
         ("fluent x: int = 1\nfluent y: bool = true", ["x = 1, y = true"]),

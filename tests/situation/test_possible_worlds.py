@@ -343,3 +343,19 @@ def test_a_case_that_is_given_by_very_many_fluents_takes_no_more_memory_than_the
         tracemalloc.stop()
     assert (len(case), answer) == (20_000, False)
     assert peak < 100 * 2**20
+
+
+@pytest.mark.parametrize(("most", "worlds"), [(41, 41), (40, None)])
+def test_so_many_worlds_may_agree_with_what_was_sensed(
+    monkeypatch: pytest.MonkeyPatch, most: int, worlds: int | None
+) -> None:
+    """Where ``f`` is 1 or 2, each of the 20 values of ``g``; where it is 3, one: 22 cases, 41 worlds."""
+    monkeypatch.setattr("golc.situation.worlds.MOST_CASES", most)
+    text = "domain d\nfluent f: 1..3 = unknown\nfluent g: 1..20 = unknown\naction a:\n    senses f != 3 or g = 1\n"
+    dynamics = Dynamics(theory_of(text))
+    if worlds is None:
+        with pytest.raises(ProgramError, match="more than 40 cases"):
+            dynamics.assimilate(dynamics.initial(), "a", (), (True,))
+    else:
+        state, _ = dynamics.assimilate(dynamics.initial(), "a", (), (True,))
+        assert isinstance(state, Worlds) and len(state) == worlds

@@ -43,7 +43,8 @@ def test_a_file_is_read_as_itself(
 
     assert [finding.message for finding in written.findings.diagnostics] == []
     assert written.file == file
-    assert python_text(parsed(unparse(written.file))) == python_text(file)
+    # Of a real Python keeps the value, not the zeros at its end.
+    assert python_text(parsed(unparse(written.file))) == python_text(written.file)
 
 
 def _renamed(part: Any, names: tuple[str, ...]) -> Any:

@@ -34,6 +34,8 @@ def test_a_number_too_large_to_write_is_a_text_in_json() -> None:
         (Fraction(1, 3), "1/3"),
         (Fraction(4, 2), "2"),
         (Fraction(1, 2**200), f"1/{2**200}"),
+        (Fraction(3, 10**100), f"0.{'0' * 99}3"),
+        (Fraction(3, 10**101), f"3/{10**101}"),
         (Fraction(1 << 20_000, 3), "0x1000000000… (20001 bits)/3"),
         (frozenset({10, 9, None}), "{none, 9, 10}"),
         (frozenset({frozenset({"b", "a"}), frozenset()}), "{{}, {a, b}}"),

@@ -65,17 +65,7 @@ class Actions(Lines):
             if value is not NOT_PYTHON and not isinstance(value, Term):
                 yield from self.unrolled(node, self._clause)
                 return
-        self.no_else(node)
-        where = None
-        if word is None:
-            binders = self.binders(node.target, [node.iter])
-        else:
-            assert isinstance(node.iter, ast.Call)
-            binders = self.binders(node.target, self.every_argument(node.iter, ("where",)))
-            where = self.keyword(node.iter, "where")
-        names = [each.id for each in ast.walk(node.target) if isinstance(each, ast.Name)]
-        with self.scope(names):
-            condition = None if where is None else self.expr(where)
+        with self.loop(node, word) as (binders, condition):
             for part in node.body:
                 call, _ = self.call(part, "causes", IN_ACTIONS)
                 yield self._effect(call, binders, condition, self.span(node))

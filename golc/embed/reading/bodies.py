@@ -8,12 +8,15 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
-from golc.diagnostics import Diagnostic, Span
-from golc.embed.errors import Refused, meaningless
+from golc.diagnostics import Code, Diagnostic, Span
+from golc.embed import words
+from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.expressions import Expressions
 from golc.embed.reading.refusals import STATEMENTS
+from golc.embed.terms import PROGRAMS, Named, Term
 from golc.embed.values import elements
+from golc.syntax import tree
 
 T = TypeVar("T")
 
@@ -101,6 +104,38 @@ class Bodies(Expressions):
             case _:
                 raise meaningless("the values do not fit these names", self.span(target))
 
+    def is_pythons(self, node: ast.expr) -> bool:
+        """Whether a loop goes through something of Python that is no list of values of the language."""
+        value = self.listed(node)
+        of_values = isinstance(value, (list, tuple, range, set, frozenset)) and not any(map(_is_no_value, value))
+        return self.is_known(node) and not of_values
+
+    def is_known(self, node: ast.expr) -> bool:
+        """Whether Python knows what a loop goes through."""
+        value = self.listed(node)
+        if isinstance(value, (list, tuple)):
+            return not any(each is NOT_PYTHON for each in value)
+        return value is not NOT_PYTHON and not isinstance(value, Term)
+
+    @contextlib.contextmanager
+    def loop(
+        self, node: ast.For, word: words.Word | None
+    ) -> Iterator[tuple[tuple[tree.Binder, ...], tree.Expr | None]]:
+        """The variables of a ``for`` of the language with its condition; they are bound while this lasts.
+
+        ``word`` is called around the types and lists that it goes through, if there is more to say than one of them.
+        """
+        self.no_else(node)
+        ranges, where = [node.iter], None
+        if word is not None:
+            assert isinstance(node.iter, ast.Call), "the word is called"
+            ranges, where = self.every_argument(node.iter, ("where",)), self.keyword(node.iter, "where")
+            if not ranges:
+                raise refused(Code.ARITY, f"`{word.name}` needs a type or a list to go through", self.span(node.iter))
+        binders = self.binders(node.target, ranges)
+        with self.scope([each.id for each in ast.walk(node.target) if isinstance(each, ast.Name)]):
+            yield binders, None if where is None else self.expr(where)
+
     def no_else(self, node: ast.For | ast.While) -> None:
         """A loop of the language has no ``else``."""
         if node.orelse:
@@ -118,3 +153,10 @@ class Bodies(Expressions):
         span = self.span(node)
         line = span.text.partition("\n")[0].rstrip()
         return Span(span.source, span.start, span.start + len(line))
+
+
+def _is_no_value(value: object) -> bool:
+    """Whether something cannot be an element of a list of the language: an action, a tuple, a function."""
+    if isinstance(value, Named):
+        return value.kind in PROGRAMS
+    return not (value is None or isinstance(value, (bool, int, float, str, Term)))

@@ -47,13 +47,13 @@ class Devices(Lines, Tables):
     def _binding(self, call: ast.Call) -> tree.Binding:
         known = ("number", "first", "call", "start", "prompt", "timeout", "table")
         (bound,) = self.arguments(call, 1, known)
-        action = self.python(bound.func if isinstance(bound, ast.Call) else bound)
+        named = bound.func if isinstance(bound, ast.Call) else bound
+        action = self.python(named)
         if not isinstance(action, Named):
             raise meaningless("this is no action", self.span(bound), "write an action: `bind(turn_around, number=0)`")
-        ident = tree.Ident(action.name, span=self.span(bound.func if isinstance(bound, ast.Call) else bound))
-        args = None
-        if isinstance(bound, ast.Call) and bound.args:
-            args = tuple(self._bound_arg(arg) for arg in self.every_argument(bound))
+        ident = tree.Ident(action.name, span=self.span(named))
+        parts = self.every_argument(bound) if isinstance(bound, ast.Call) else []
+        args = tuple(self._bound_arg(arg) for arg in parts) or None
         given = {word.arg: word.value for word in call.keywords}
         timeout = None if "timeout" not in given else self.expr(given["timeout"])
         table = None if "table" not in given else self.table(given["table"])

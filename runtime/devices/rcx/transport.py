@@ -203,6 +203,13 @@ def is_pty(name: str) -> bool:
         return False
 
 
+_FORBIDDEN = (
+    PortForbiddenError,
+    "may not be opened by this user",
+    "join the group of the port (`sudo adduser $USER dialout`) and log in again",
+)
+_BUSY = (PortBusyError, "is in use", "another program holds it: end that one first (`fuser -v PORT`)")
+_NOTHING_BEHIND = (PortMissingError, "has no device behind it", "is the tower plugged in?")
 # What the system says when a port cannot be opened: the class of the error, what happened, what to do.
 _REASONS: dict[int, tuple[type[LinkError], str, str]] = {
     errno.ENOENT: (
@@ -210,21 +217,13 @@ _REASONS: dict[int, tuple[type[LinkError], str, str]] = {
         "does not exist",
         "is the tower plugged in? `ls /dev/tty*` shows the serial ports of this machine",
     ),
-    errno.ENODEV: (PortMissingError, "has no device behind it", "is the tower plugged in?"),
-    errno.ENXIO: (PortMissingError, "has no device behind it", "is the tower plugged in?"),
+    errno.ENODEV: _NOTHING_BEHIND,
+    errno.ENXIO: _NOTHING_BEHIND,
     errno.EIO: (PortMissingError, "has nothing at its far end", "start the simulated brick, or plug in the tower"),
-    errno.EACCES: (
-        PortForbiddenError,
-        "may not be opened by this user",
-        "join the group of the port (`sudo adduser $USER dialout`) and log in again",
-    ),
-    errno.EPERM: (
-        PortForbiddenError,
-        "may not be opened by this user",
-        "join the group of the port (`sudo adduser $USER dialout`) and log in again",
-    ),
-    errno.EAGAIN: (PortBusyError, "is in use", "another program holds it: end that one first (`fuser -v PORT`)"),
-    errno.EBUSY: (PortBusyError, "is in use", "another program holds it: end that one first (`fuser -v PORT`)"),
+    errno.EACCES: _FORBIDDEN,
+    errno.EPERM: _FORBIDDEN,
+    errno.EAGAIN: _BUSY,
+    errno.EBUSY: _BUSY,
     errno.ENOTTY: (
         NotATowerError,
         "is not a serial port",

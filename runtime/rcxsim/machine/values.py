@@ -48,7 +48,7 @@ def reader(machine: Machine, value: Value) -> Read:
     check(machine, value)
     number = value.argument
     match value.source:
-        case Source.VARIABLE:
+        case Source.VARIABLE | Source.COUNTER:
             return variable_reader(machine, number)
         case Source.CONSTANT:
             return lambda task: number
@@ -70,8 +70,6 @@ def reader(machine: Machine, value: Value) -> Read:
             return lambda task: machine.options.battery
         case Source.FIRMWARE:
             return lambda task: machine.firmware.version
-        case Source.COUNTER:
-            return variable_reader(machine, number)
         case Source.INDIRECT:
             return _indirect_reader(machine, number)
         case Source.ACTIVE_EVENTS:

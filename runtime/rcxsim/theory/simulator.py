@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import random
 
-from golc.diagnostics import Code, Findings, Span, UserError
-from golc.nqc.numbering import ActionMap, number_device
+from golc.diagnostics import Code, Diagnostic, Span, UserError
+from golc.nqc.numbering import ActionMap, number_bricks
 from golc.runtime.rcxsim.line import Line, LineOptions
 from golc.runtime.rcxsim.theory.behaviours import TheoryBrick
 from golc.runtime.rcxsim.theory.classic import ClassicProgram
@@ -41,18 +41,11 @@ def build(theory: BasicActionTheory, options: LineOptions, schedule: Schedule | 
 
 def bricks(theory: BasicActionTheory) -> list[ActionMap]:
     """The numbers of every brick that a theory declares; raises UserError if there is none or they make no sense."""
-    findings = Findings()
-    found = [number_device(theory, device, findings) for device in theory.devices if device.kind == "rcx"]
-    if not found:
-        findings.error(
-            Code.NO_DEVICE,
-            f"domain {theory.name} declares no brick to simulate",
-            Span(theory.source, 0, 0),
-            help=add_a_brick(Span(theory.source, 0, 0)),
-        )
-    if findings.has_errors:
-        raise UserError(*findings.diagnostics)
-    return found
+    if not theory.bricks:
+        nowhere = Span(theory.source, 0, 0)
+        message = f"domain {theory.name} declares no brick to simulate"
+        raise UserError(Diagnostic(Code.NO_DEVICE, message, nowhere, help=add_a_brick(nowhere)))
+    return [*number_bricks(theory).values()]
 
 
 def _reported_by(numbers: ActionMap, schedule: Schedule) -> Schedule:

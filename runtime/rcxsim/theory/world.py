@@ -125,7 +125,6 @@ class TheoryWorld:
 
 def _comes_from_elsewhere(theory: BasicActionTheory, action: Action) -> bool:
     """Whether an exogenous action reaches the host, but not through a brick, and can be listed."""
-    bricks = [device for device in theory.devices if device.kind == "rcx"]
-    bound = {binding.action for brick in bricks for binding in brick.bindings or implied(theory, brick)}
+    bound = {binding.action for brick in theory.bricks for binding in brick.bindings or implied(theory, brick)}
     listed = prod(len(p.type.values) if p.type.finite else MOST_INFERRED + 1 for p in action.parameters)
     return action.exogenous and action.name not in bound and listed <= MOST_INFERRED

@@ -928,3 +928,55 @@ AT_THREE = location == 3
 def called_formula():
     return AT_THREE()
 #! 12+8 GL143 this cannot be called
+
+
+@theory.proc
+def second_words():
+    with together():
+        with branch(), guard(free(1)):
+#! 24+14 GL143 one word a `with`
+#! help: write one `with` inside the other
+            pass
+        with branch:
+#! 14+6 GL143 `branch` is called
+#! help: write `with branch():`
+            pass
+        with branch(3):
+#! 14+9 GL015 `branch` takes no arguments by place, not 1
+            pass
+        with branch() as part:
+#! 26+4 GL143 `branch` gives nothing a name
+#! help: `with let(e) as x:` does
+            pass
+    with interrupts():
+        with on:
+#! 14+2 GL143 `on` is called
+#! help: write `with on():`
+            pass
+        with on(free(1)), guard(free(2)):
+#! 27+14 GL143 one word a `with`
+#! help: write one `with` inside the other
+            pass
+        for n in on(station, where=free(n)):
+            pass
+        else:
+            pass
+#! 13+4 GL143 a loop of a program has no `else`
+#! help: write it behind the loop
+    with within(3):
+        pass
+    with otherwise(4):
+#! 10+12 GL015 `otherwise` takes no arguments by place, not 1
+        pass
+
+
+@theory.action
+def drive(to: station):
+    pass
+
+
+@theory.device("rcx", file="motors.nqc", name="motors")
+def motors():
+    bind(drive(to=3), number=1)
+#! 16+4 GL015 `drive` takes no `to=`
+#! help: it takes arguments by place only
