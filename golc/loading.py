@@ -140,7 +140,7 @@ def examine_file(
     source, constants = sources[0], constants or {}
     theory = outlined(file, source, findings, constants, trust)
     if theory is not None and findings.has_errors:
-        check_devices_anyway(theory, file, findings)
+        check_devices_anyway(theory, findings)
     elif theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):

@@ -2,40 +2,32 @@
 
 from __future__ import annotations
 
-from itertools import product
+from dataclasses import replace
 
-from golc.checks.devices import check_devices
-from golc.diagnostics import Findings, Severity, Span
-from golc.syntax import tree
-from golc.syntax.keywords import closest
-from golc.theory.context import WORD
-from golc.theory.elaborate import is_about
-from golc.theory.theory import BasicActionTheory
+from golc.checks.bricks import RCX
+from golc.checks.devices import check_settings
+from golc.diagnostics import Findings, Severity
+from golc.nqc.numbering import number_device
+from golc.theory.fitting import BROKEN
+from golc.theory.theory import BasicActionTheory, Binding, Parameter
 
 
-def check_devices_anyway(outline: BasicActionTheory, file: tree.File, findings: Findings) -> None:
-    """The errors that ``check_devices`` finds in what errors have left of a theory.
-
-    Nothing if one of them is in a device, or in what may be a device or bring one: who does an action is then unknown.
-    """
-    devices = [node.span for node in file.declarations if isinstance(node, tree.Device)]
-    wrong = [*(finding.span for finding in findings.diagnostics), *file.unread]
-    imports = any(isinstance(node, tree.Import) for node in file.declarations)
-    if imports or any(map(_may_be_a_device, file.unread)) or any(_meet(*pair) for pair in product(devices, wrong)):
-        return
+def check_devices_anyway(outline: BasicActionTheory, findings: Findings) -> None:
+    """The errors in the settings of devices and in the numbers of their actions; ``outline`` is what errors have left
+    of a theory. Who does an action, and who reports one, only a whole theory says."""
     found = Findings()
-    check_devices(outline, found)
-    findings.diagnostics += [
-        finding
-        for finding in found.diagnostics
-        if finding.severity is Severity.ERROR and not is_about(finding, file.unread)
-    ]
+    for device in outline.devices:
+        check_settings(device, found)
+        sound = tuple([binding for binding in device.bindings if _is_sound(outline, binding)])
+        if device.kind == RCX and sound:
+            number_device(outline, replace(device, bindings=sound), found)
+    findings.diagnostics += [finding for finding in found.diagnostics if finding.severity is Severity.ERROR]
 
 
-def _may_be_a_device(unread: Span) -> bool:
-    first = WORD.match(unread.text)
-    return first is not None and closest(first[0], ["device", "import"]) is not None
-
-
-def _meet(one: Span, other: Span) -> bool:
-    return one.source is other.source and one.start <= other.end and other.start <= one.end
+def _is_sound(outline: BasicActionTheory, binding: Binding) -> bool:
+    """Whether the types of a binding's arguments, and of what its action senses, are known."""
+    action = outline.actions.get(binding.action)
+    if action is None:
+        return False
+    arguments = [slot.type for slot in binding.args if isinstance(slot, Parameter)]
+    return BROKEN not in [*arguments, *(sensed.type for sensed in action.senses)]
