@@ -174,9 +174,12 @@ class Flow:
     def _while(self, statement: st.While, place: Place) -> Place:
         condition = statement.condition
         place = self._after_all(statement.body, place)
-        if self._constant(condition, place, "this condition", (False,)) is False:
+        always = self._constant(condition, place, "this condition")
+        if always is False:
             return place
         self._walk(statement.body, place.knowing(place.asked(condition)))
+        if always:
+            return replace(place, known=())
         reads = fluents_read(self._theory, [condition])
         changing = self._performed.by(statement.body) | place.others
         if reads and not any(self._touched[name] & reads for name in changing):

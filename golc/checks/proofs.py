@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from golc.checks.aims import check_aims
 from golc.checks.effects import check_effects
 from golc.checks.flow import Flow
 from golc.checks.obligations import Obligations
@@ -36,5 +37,6 @@ def prove(theory: BasicActionTheory, reachable: bool = False) -> Proofs:
     with deep_recursion():
         check_effects(obligations)
         Flow(obligations).check()
+        check_aims(obligations)
     scope = prover.scope if isinstance(prover, Among) else None
     return Proofs(tuple(obligations.findings.diagnostics), obligations.asked, obligations.undecided, scope)

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import click
 
-from golc.cli.common import Console, console_options, constants_option
+from golc.cli.console import Console
+from golc.cli.options import console_options, constants_option
 
 
 def _starts(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from golc.api.report import Report, report_of
 from golc.api.theory import Theory
-from golc.cli.common import Console
+from golc.cli.console import Console
 from golc.cli.fixing import show, tell, write
 from golc.diagnostics import Code, Diagnostic, Severity, counted
 from golc.fixing.rounds import Looked, Outcome, fix

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, console_options, written
+from golc.cli.console import Console
+from golc.cli.files import written
+from golc.cli.options import console_options
 
 if TYPE_CHECKING:
     from golc.diagnostics import Findings, Source

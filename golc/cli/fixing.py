@@ -8,7 +8,8 @@ import sys
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from golc.cli.common import Console, completed, patch
+from golc.cli.console import Console
+from golc.cli.files import completed, patch
 
 if TYPE_CHECKING:
     from golc.fixing.rounds import Outcome

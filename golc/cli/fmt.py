@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, console_options, patch, written
+from golc.cli.console import Console
+from golc.cli.files import patch, written
+from golc.cli.options import console_options
 from golc.diagnostics import counted
 
 if TYPE_CHECKING:

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from golc.cli.common import Console, console_options, constants_option
+from golc.cli.console import Console
+from golc.cli.options import console_options, constants_option
 
 if TYPE_CHECKING:
     from golc.nqc.actionmap import Entry

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Literal, TypedDict, Unpack
 
 import click
 
-from golc.cli.common import Console, Quantity, completed, console_options, constants_option
+from golc.cli.console import Console
+from golc.cli.files import completed
+from golc.cli.options import Quantity, console_options, constants_option
 from golc.diagnostics import counted
 
 if TYPE_CHECKING:

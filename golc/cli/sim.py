@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, NamedTuple
 
 import click
 
-from golc.cli.common import Console, console_options, constants_option, speed_option
+from golc.cli.console import Console
+from golc.cli.options import console_options, constants_option, speed_option
 from golc.cli.sim_machine import REST, Simulation, is_byte_code
 from golc.cli.sim_options import ByteCode, Plug, byte_code_options, line_options, plug_options
 from golc.cli.sim_room import Room

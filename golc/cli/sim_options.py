@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from golc.cli.common import Quantity, address, grouped
+from golc.cli.options import Quantity, address, grouped
 
 if TYPE_CHECKING:
     from golc.runtime.rcxsim.line import LineOptions

@@ -8,7 +8,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from golc.cli.common import Console
+from golc.cli.console import Console
 
 if TYPE_CHECKING:
     from golc.runtime.rcxsim.ports import Port

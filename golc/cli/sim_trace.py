@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from golc.cli.common import Console
+from golc.cli.console import Console
 
 if TYPE_CHECKING:
     from golc.runtime.rcxsim.trace import Record, Trace

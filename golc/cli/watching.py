@@ -14,7 +14,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping
 from typing import TypeAlias
 
-from golc.cli.common import Console
+from golc.cli.console import Console
 from golc.cli.reads import Status, reads, status
 from golc.diagnostics import counted
 from golc.runtime.signals import ENDING, ending_on_signals

@@ -58,7 +58,10 @@ def typed(type_: object, span: Span) -> tree.Type | None:
 
 def parameters_of(types: Mapping[str, object] | None, span: Span) -> tuple[tree.Parameter, ...]:
     """The parameters that a mapping from names to types stands for, in a declaration that is a call."""
-    given, place = (types or {}).items(), argument(span, None, "parameters")
+    place = argument(span, None, "parameters")
+    if types is not None and not isinstance(types, Mapping):
+        raise refused(Code.PYTHON_VALUE, "parameters are a dictionary", place, 'write `parameters={"n": station}`')
+    given = (types or {}).items()
     return tuple(tree.Parameter(new_name(name, place), type_node(type_, place), span=place) for name, type_ in given)
 
 

@@ -46,6 +46,8 @@ def new_name(text: object, span: Span, used: bool = False) -> tree.Ident:
         what = f"`{text}`" if isinstance(text, str) else described(text)
         help_ = "begin it with a letter and go on with letters (without accents), digits and `_`"
         near = _nearest_name(text) if isinstance(text, str) else ""
+        if isinstance(text, str) and text and not text.strip("_"):
+            help_ = "what is not used has a name, too: `k`"
         raise refused(
             Code.PYTHON_MEANING, f"{what} cannot be a name", span, f"{help_}, as in `{near}`" if near else help_
         )

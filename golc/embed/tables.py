@@ -13,7 +13,7 @@ from golc.embed.values import expr
 from golc.syntax import tree
 
 
-def table_of(value: dict[Any, Any], span: Span) -> tree.Table:
+def table_of(value: Mapping[Any, object], span: Span) -> tree.Table:
     """A dictionary of Python as a table."""
     entries = []
     for key, each in value.items():

@@ -113,9 +113,9 @@ class Theory(Declaring):
         ident, span = named(what, name)
         heads, place = parameters_of(parameters, span), argument(span, 2, "value")
         meant, returned = applied(needed(value, span), heads, span), typed(type, span)
-        if isinstance(meant, dict):
+        if isinstance(meant, Mapping):
             no_strings(meant, heads, returned, self._parts, place)
-        node = table_of(meant, place) if isinstance(meant, dict) else expr(meant, place)
+        node = table_of(meant, place) if isinstance(meant, Mapping) else expr(meant, place)
         return self._add(tree.Static(ident, heads, returned, node, span=span), "static", heads)
 
     def extern(self, *, file: str | PathLike[str], name: str | None = None) -> Callable[[Callable[..., Any]], Any]:

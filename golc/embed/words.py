@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
-from golc.diagnostics import Code, Span
+from golc.diagnostics import Code, Span, counted
 from golc.embed.errors import meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.places import caller
@@ -136,7 +136,9 @@ def bound(body: Callable[..., object], count: int, span: Span, names: Sequence[s
     """The variables for which a function is called: of the given names, or named as its own parameters."""
     own = list(inspect.signature(body).parameters)
     if len(own) != count:
-        raise refused(Code.ARITY, f"the function has {len(own)} variables for {count} types", span)
+        raise refused(
+            Code.ARITY, f"the function has {counted(len(own), 'variable')} for {counted(count, 'type')}", span
+        )
     return [variable(name, span) for name in (names or [golc_name(name) for name in own])]
 
 

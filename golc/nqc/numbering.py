@@ -26,10 +26,13 @@ def number_device(theory: BasicActionTheory, device: Device, findings: Findings)
     """
     bindings = device.bindings or tuple(implied(theory, device))
     drafts = [entry for binding in bindings if (entry := _draft(theory, binding, findings)) is not None]
-    entries = _place(drafts, {id(entry) for entry in drafts if entry.first >= 0})
+    explicit = {id(entry) for entry in drafts if entry.first >= 0}
+    entries = _place(drafts, explicit)
     _check_clashes(entries, findings)
+    _check_ends(entries, explicit, findings)
     for entry in entries:
-        _check_arguments(entry, findings)
+        if entry.count <= LARGEST:
+            _check_arguments(entry, findings)
         _check_results(theory.actions[entry.action], entry, findings)
     return ActionMap(device, tuple(sorted(entries, key=lambda entry: entry.first)), wire_of(device))
 
@@ -128,8 +131,13 @@ def _check_clashes(entries: Sequence[Entry], findings: Findings) -> None:
                 labels=(Label(one.span, f"`{one.action}` takes {_numbers(one)}"),),
                 help=f"{_free(sorted((entry.first, entry.last) for entry in entries), other.count)} is free",
             )
-    for entry in entries:
-        if entry.last > LARGEST:
+
+
+def _check_ends(entries: Sequence[Entry], explicit: set[int], findings: Findings) -> None:
+    """No number is too large. Numbers that only follow others that are too large are no finding of their own."""
+    beyond = sorted((entry for entry in entries if entry.last > LARGEST), key=lambda entry: entry.first)
+    for entry in beyond:
+        if entry is beyond[0] or id(entry) in explicit:
             findings.error(
                 Code.NUMBER_RANGE,
                 f"`{entry.action}` takes {_numbers(entry)}, but a brick's numbers end at {LARGEST}",

@@ -101,14 +101,20 @@ class Encoder(Values):
         self.shortened |= short
         return value
 
-    def integers(self, variables: Env) -> list[Any]:
-        """The unknown integers among the fluents that were read, and some variables."""
-        found = [*[value for _, value, _ in self._read.values()], *variables]
-        return [
-            value.number
-            for value in found
-            if isinstance(value.kind, int) and value.kind == NUMBER and z3.is_int(value.number)
-        ]
+    def sizes(self, variables: Env) -> list[Any]:
+        """What is large in the fluents that were read, and in some variables: the unknown integers, the numbers of
+        elements, and the integers among these."""
+        found: list[Any] = []
+        waiting: list[tuple[Encoded, Formula]] = [(value, True) for _, value, _ in self._read.values()]
+        waiting += [(value, True) for value in variables]
+        while waiting:
+            value, there = waiting.pop()
+            if isinstance(value.kind, int) and value.kind == NUMBER and z3.is_int(value.number):
+                found.append(chosen(there, value.number, 0))
+            if value.parts is not None:
+                found += [chosen(both(there, part.there), 1, 0) for part in value.parts.all]
+                waiting += [(part.element, both(there, part.there)) for part in value.parts.all]
+        return found
 
     def values(self, model: Any) -> dict[tuple[str, tuple[Value, ...]], Value]:
         """The values of the ground fluents that were read, in a model of the solver."""

@@ -39,7 +39,7 @@ Found = tuple[Mapping[Ground, Value], Sequence[Value]]
 def solve(theory: BasicActionTheory, question: Question, small: bool = False) -> Found | None:
     """A situation that answers a question with yes, or none if there is provably none.
 
-    If it is to be ``small``, one in which the integers are together as near to 0 as possible.
+    If it is to be ``small``, one in which integers are near to 0, and sets and lists short.
 
     Raises ``NotDecidedError`` if the solver does not know, or the question cannot be put to it.
     """
@@ -54,7 +54,7 @@ def solve(theory: BasicActionTheory, question: Question, small: bool = False) ->
     every = [wanted, *[formula for formula, _ in assumed], *encoder.facts]
     model = _model(every)
     if isinstance(model, z3.ModelRef):
-        model = _nearest(every, encoder.integers(variables), model) if small else model
+        model = _nearest(every, encoder.sizes(variables), model) if small else model
         return encoder.values(model), [encoder.decoded(each, model) for each in variables]
     # What is impossible without an invariant of which only some situations are looked at is impossible.
     exact = [formula for formula, whole in assumed if whole]
@@ -104,12 +104,12 @@ def _model(formulas: list[Formula]) -> Any:
     return solver.model() if answer == z3.sat else None if answer == z3.unsat else UNKNOWN
 
 
-def _nearest(formulas: list[Formula], integers: list[Any], model: z3.ModelRef) -> z3.ModelRef:
+def _nearest(formulas: list[Formula], sizes: list[Any], model: z3.ModelRef) -> z3.ModelRef:
     """A model in which the absolute values of some integers have the smallest sum that is found early."""
     solver = z3.Solver()
     solver.set("timeout", PATIENCE // TRIES)
     solver.add(*[formula for formula in formulas if formula is not True])
-    size = total([z3.If(each < 0, -each, each) for each in integers])
+    size = total([z3.If(each < 0, -each, each) for each in sizes])
     low, high = 0, evaluated(size, model)
     for _ in range(TRIES):
         if low == high:

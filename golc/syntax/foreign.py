@@ -253,6 +253,9 @@ def character(failure: Failure) -> Diagnostic | None:
             failure.at(failure.place, failure.place + len(failure.rest)),
             'close it with `"` on the same line; a quotation mark inside it is written `\\"`',
         )
+    if found.isalpha() or (found.isalnum() and not found.isdigit()):
+        message, help = f"a name has no letters but those from a to z, and `{found}` is none", "write another name"
+        return failure.finding(Code.SYNTAX, message, help=help)
     if found == "_":
         return failure.finding(Code.SYNTAX, "a name begins with a letter, not with `_`", help="write it without")
     name = unicodedata.name(found, "a control character").lower()

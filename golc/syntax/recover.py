@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from itertools import pairwise
 
 from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree as ast
@@ -114,14 +115,35 @@ def _merge(read: list[tuple[Piece, Findings]], findings: Findings) -> None:
         for diagnostic in built.diagnostics
         if diagnostic.code is Code.RESERVED
     }
-    tabs = False
+    tabs, said = False, _said_of_next([piece for piece, _ in read])
     for piece, built in read:
         findings.diagnostics += built.diagnostics
         for diagnostic, failure in piece.mistakes:
             tab = diagnostic.code is Code.INDENTATION and "\t" in diagnostic.span.text
-            if not (tab and tabs) and not _uses(failure, misused):
+            if not (tab and tabs) and not _uses(failure, misused) and id(diagnostic) not in said:
                 findings.add(diagnostic)
             tabs = tabs or tab
+
+
+def _said_of_next(pieces: list[Piece]) -> set[int]:
+    """The findings that a line in the first column, which belongs below the one before it, has another word for: that
+    something is missing there, and the same of further lines below it."""
+    said = set()
+    for piece, below in pairwise(pieces):
+        if not _is_lost(below) or re.search(r"\n[ \t]*\r?\n", piece.part.text):
+            continue
+        last, end = piece.mistakes[-1][0] if piece.mistakes else None, piece.part.start + len(piece.part.text.rstrip())
+        if last is not None and last.code is Code.MISSING and last.span.end == end:
+            said.add(id(last))
+        if _is_lost(piece) and piece.mistakes[1:] == []:
+            said.add(id(below.mistakes[0][0]))
+    return said
+
+
+def _is_lost(piece: Piece) -> bool:
+    """Whether a piece is no declaration, but a line that is not indented."""
+    first = piece.mistakes[0][0] if piece.mistakes else None
+    return first is not None and first.code is Code.INDENTATION and first.span == _word_span(piece)
 
 
 def _uses(failure: Failure | None, misused: set[str]) -> bool:

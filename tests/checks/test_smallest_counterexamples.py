@@ -188,6 +188,24 @@ def time_enough() -> Iterator[None]:
         yield
 
 
+def test_a_solver_shows_short_lists(folder: Path) -> None:
+    text = """\
+domain trial
+fluent x: int = 2
+fluent y: int = 3
+fluent l: list[1..3] = []
+invariant alike: x * y >= 0
+action take:
+    poss l != []
+    causes x := first(l)
+    causes l := rest(l)
+"""
+    path = folder / "lists.gl"
+    path.write_text(text)
+    (finding,) = examine(path, proofs=True).findings
+    assert finding.notes == ("for example when y = -1, l = [1] and `take` is done",)
+
+
 @settings(
     max_examples=int(environ.get("GOLC_EXAMPLES", 60)), deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )

@@ -405,6 +405,68 @@ def test_a_star_spreads_a_list_of_python(text_of: Text) -> None:
     assert "define d := at in {2, 3, 6}\n" in text
 
 
+def test_any_mapping_of_python_is_a_table(text_of: Text) -> None:
+    text = text_of(
+        """
+        from types import MappingProxyType
+        from golc.embed import Theory, interval
+
+        theory = Theory("d")
+        floor = theory.type("floor", interval(1, 2))
+        theory.static("size", int, MappingProxyType({1: 5, 2: 7}), parameters={"n": floor})
+        """
+    )
+
+    assert text.endswith("static size(n: floor): int = {1: 5, 2: 7}\n")
+
+
+def test_a_loop_through_pairs_is_written_out(text_of: Text) -> None:
+    text = text_of(
+        """
+        from __future__ import annotations
+        from golc.embed import Theory, causes, interval
+
+        theory = Theory("d")
+        floor = theory.type("floor", interval(-6, 6))
+        at = theory.fluent("at", floor, 1)
+
+        @theory.action
+        def go(n: floor, m: floor):
+            causes(at, max(n, m))
+
+        @theory.proc
+        def control():
+            for n, m in [(-1, 2), (at, 4)]:
+                go(n, m)
+            for n in floor:
+                for m, _ in ((n, [1, "x"]), (3, None)):
+                    go(n, m)
+        """
+    )
+
+    assert text.endswith(
+        "proc control:\n    go(-1, 2)\n    go(at, 4)\n    for n: floor:\n        go(n, n)\n        go(n, 3)\n"
+    )
+
+
+def test_a_list_with_terms_may_be_another_one_when_a_function_is_translated(wrong_with: Wrong) -> None:
+    (found,) = wrong_with(
+        """
+        from golc.embed import Theory
+
+        theory = Theory("d")
+        for name in ("red", "green"):
+            pair = (theory.fluent(name, int, 0), name)
+
+            @theory.goal(name=name + "_is_on")
+            def on():
+                return pair[0] == 1
+        """
+    )
+
+    assert found.message == ("`pair` was (red, 'red') when the function was declared and is (green, 'green') now")
+
+
 def test_python_may_compare_symbols(text_of: Text) -> None:
     text = text_of(
         """
@@ -500,6 +562,7 @@ def test_a_table_from_a_file_is_told_what_is_missing(
             "write `theory.extern(file=…)`",
         ),
         ("from golc.embed import Theory, interval\ninterval(1)", "it takes `low`, `high`"),
+        ("def interval(low, high):\n    pass\n\n\ninterval(1)", None),
         ("from golc.embed import Theory\nTheory()", "it takes `domain`"),
         ("from golc.embed import enum\nenum(['a', 'b'])", "write `enum(*names)` for all that a list has"),
         (

@@ -162,6 +162,7 @@ def test_a_symbol_may_have_any_name(text_of: Callable[[str], str]) -> None:
         ('symbols("a", "b c")', (14, 5), "GL143", "cannot be a name", "`b_c`"),
         ('theory.fluent("f", 3, 1)', (20, 1), "GL144", "no type of the language", None),
         ('theory.fluent("f", initial=1, parameters={"n": 3})', (42, 8), "GL144", "no type of the language", None),
+        ('theory.fluent("f", initial=1, parameters=["n"])', (42, 5), "GL144", "are a dictionary", '{"n": station}'),
         ('Theory("my lift")', (8, 9), "GL143", "cannot be a name", "`my_lift`"),
         ('theory.type("t", list)', (18, 4), "GL143", "needs the type of its elements", "set[station]"),
         ('theory.const("c")', (1, 17), "GL143", "a value is missing", None),

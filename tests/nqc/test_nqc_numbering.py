@@ -238,8 +238,15 @@ def test_infinite_arguments_are_found() -> None:
 
 
 def test_arguments_that_do_not_fit_sixteen_bits_are_found() -> None:
-    codes = brick(bind("d", 0, Parameter("n", Interval(1, 70000))))
-    assert codes == [Code.NUMBER_RANGE, Code.ARGUMENT_NUMBER]
+    assert brick(bind("d", 0, Parameter("n", Interval(32767, 32768)))) == [Code.ARGUMENT_NUMBER]
+    assert brick(bind("d", 0, Parameter("n", Interval(32766, 32767)))) == []
+
+
+def test_more_arguments_than_there_are_numbers_are_one_finding_with_all_that_follows() -> None:
+    many = bind("d", None, Parameter("n", Interval(1, 70000)))
+    assert brick(many, bind("a", None), bind("b", None, SIX)) == [Code.NUMBER_RANGE]
+    assert brick(many, bind("a", 80000)) == [Code.NUMBER_RANGE] * 2
+    assert brick(bind("a", 40000), bind("b", 50000, SIX)) == [Code.NUMBER_RANGE] * 2
 
 
 @pytest.mark.parametrize(

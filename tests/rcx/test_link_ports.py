@@ -228,8 +228,10 @@ def test_urls_that_make_no_sense(port: str) -> None:
 
 
 def test_a_socket_that_nobody_listens_on() -> None:
-    with pytest.raises(PortFailedError, match="refused"):
+    with pytest.raises(PortMissingError) as caught:
         open_tower("socket://127.0.0.1:1")
+    assert str(caught.value) == "the port socket://127.0.0.1:1 cannot be reached: nobody listens there"
+    assert caught.value.help == "start the simulated brick: `golc sim FILE --tcp HOST:NUMBER`"
 
 
 def test_a_device_whose_far_end_has_closed_has_nothing_to_read() -> None:

@@ -86,9 +86,19 @@ class Bodies(Expressions):
     def listed(self, node: ast.expr) -> object:
         """What a loop of Python goes through: a value of Python, or a list that is written out."""
         if isinstance(node, (ast.Tuple, ast.List)):
-            return [
-                part.value if isinstance(part, ast.Constant) else self.python(part) for part in self.spread(node.elts)
-            ]
+            return [self._listed_part(part, (ast.Tuple,)) for part in self.spread(node.elts)]
+        return self.python(node)
+
+    def _listed_part(self, node: ast.expr, inside: tuple[type[ast.expr], ...]) -> object:
+        """An element of a list that is written out; of the kinds ``inside`` also one that is written out itself."""
+        match node:
+            case ast.Constant(value=value):
+                return value
+            case ast.UnaryOp(op=ast.USub(), operand=ast.Constant(value=int() | float() as value)):
+                return -value
+            case ast.Tuple(elts=parts) | ast.List(elts=parts) if isinstance(node, inside):
+                values = [self._listed_part(part, (ast.Tuple, ast.List)) for part in self.spread(parts)]
+                return NOT_PYTHON if any(each is NOT_PYTHON for each in values) else tuple(values)
         return self.python(node)
 
     def _assign(self, target: ast.expr, value: object) -> None:

@@ -117,9 +117,10 @@ class Function:
         yield from self.function.__globals__
 
     def _changed(self, name: ast.Name, then: object, now: object) -> Exception:
+        was, is_now = _shown(then), _shown(now)
         return refused(
             Code.PYTHON_CHANGED,
-            f"`{name.id}` was {_shown(then)} when the function was declared and is {_shown(now)} now",
+            f"`{name.id}` was {was} when the function was declared and is {'another' if is_now == was else is_now} now",
             self.place(name),
             f"give it to the function as a default: `def {self.node.name}(…, {name.id}={name.id}):`",
             (Label(self.name_span, "the function is translated when the theory is complete"),),
@@ -128,13 +129,15 @@ class Function:
 
 def _alike(then: object, now: object) -> bool:
     """Whether one constant took the place of an equal one."""
-    return type(then) is type(now) and isinstance(then, (int, str, float, bool, tuple)) and then == now
+    if isinstance(then, tuple) and isinstance(now, tuple):
+        return len(then) == len(now) and all(x is y or _alike(x, y) for x, y in zip(then, now, strict=True))
+    return type(then) is type(now) and isinstance(then, (int, str, float, bool)) and then == now
 
 
 def _shown(value: object) -> str:
     """A Python value for a message; of one that cannot be shown its type."""
     try:
-        return _SHORT.repr(value)
+        return re.sub(" at 0x[0-9a-f]+", "", _SHORT.repr(value))
     except Exception:
         return f"a `{type(value).__name__}`"
 

@@ -220,6 +220,11 @@ _REASONS: dict[int, tuple[type[LinkError], str, str]] = {
     errno.ENODEV: _NOTHING_BEHIND,
     errno.ENXIO: _NOTHING_BEHIND,
     errno.EIO: (PortMissingError, "has nothing at its far end", "start the simulated brick, or plug in the tower"),
+    errno.ECONNREFUSED: (
+        PortMissingError,
+        "cannot be reached: nobody listens there",
+        "start the simulated brick: `golc sim FILE --tcp HOST:NUMBER`",
+    ),
     errno.EACCES: _FORBIDDEN,
     errno.EPERM: _FORBIDDEN,
     errno.EAGAIN: _BUSY,

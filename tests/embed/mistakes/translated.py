@@ -756,6 +756,13 @@ def control(n: station):
         go(m)
     for m in location, 3:
         go(m)
+    for _ in pick(station):
+#! 9+1 GL143 `_` cannot be a name
+#! help: what is not used has a name, too: `k`
+        go(n)
+    for a, b in [(1, 2), (1, 2, 3)]:
+#! 9+4 GL143 the values do not fit these names
+        go(a)
     for m in TABLE2:
 #! 14+6 GL012 `TABLE2` is neither a Python constant nor declared
 #! help: did you mean `TABLE`?
