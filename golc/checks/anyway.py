@@ -15,10 +15,11 @@ from golc.theory.theory import BasicActionTheory, Binding, Parameter
 def check_devices_anyway(outline: BasicActionTheory, findings: Findings) -> None:
     """The errors in the settings of devices and in the numbers of their actions; ``outline`` is what errors have left
     of a theory. Who does an action, and who reports one, only a whole theory says."""
-    found = Findings()
+    found, wrong = Findings(), {(finding.span.source, finding.span.line) for finding in findings.diagnostics}
     for device in outline.devices:
         check_settings(device, found)
-        sound = tuple([binding for binding in device.bindings if _is_sound(outline, binding)])
+        lines = [binding for binding in device.bindings if (binding.span.source, binding.span.line) not in wrong]
+        sound = tuple([binding for binding in lines if _is_sound(outline, binding)])
         if device.kind == RCX and sound:
             number_device(outline, replace(device, bindings=sound), found)
     findings.diagnostics += [finding for finding in found.diagnostics if finding.severity is Severity.ERROR]
