@@ -8,7 +8,7 @@ from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Label
 from golc.syntax.failure import Failure
-from golc.syntax.fixes import sign_at
+from golc.syntax.hints.fixes import sign_at
 from golc.syntax.layout import CLOSING, OPENING
 
 QUANTIFIERS = frozenset({"EXISTS", "FORALL", "COUNT", "SUM", "MIN", "MAX"})
