@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from golc.checks import check
+from golc.checks.anyway import check_devices_anyway
 from golc.checks.bricks import review_bricks
 from golc.checks.hosts import review_hosts
 from golc.checks.proofs import prove
@@ -17,7 +18,7 @@ from golc.proofs.reachable import Scope
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_domain
-from golc.theory.elaborate import elaborate
+from golc.theory.elaborate import outlined
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
@@ -137,8 +138,10 @@ def examine_file(
     so far, to which the rest is added; ``constants`` and ``trust`` as for ``examine``.
     """
     source, constants = sources[0], constants or {}
-    theory = elaborate(file, source, findings, constants, sources, trust)
-    if theory is not None:
+    theory = outlined(file, source, findings, constants, trust)
+    if theory is not None and findings.has_errors:
+        check_devices_anyway(theory, findings)
+    elif theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):
                 # What an imported file declares need not be used by every file that imports it.

@@ -99,15 +99,13 @@ class _Layout:
     def lines(self) -> Iterator[str]:
         diagnostic = self.diagnostic
         head = f"{diagnostic.severity.value}[{diagnostic.code.code}]"
-        yield self.paint(head, STYLES[diagnostic.severity]) + self.paint(
-            f": {_visible(diagnostic.message)}", Style.BOLD
-        )
-        yield f"{' ' * self.width}{self.paint('-->', Style.GUTTER)} {_visible(_place(diagnostic.span))}"
+        yield self.paint(head, STYLES[diagnostic.severity]) + self.paint(f": {visible(diagnostic.message)}", Style.BOLD)
+        yield f"{' ' * self.width}{self.paint('-->', Style.GUTTER)} {visible(_place(diagnostic.span))}"
         yield from self.snippets()
         for note in diagnostic.notes:
-            yield f"{self.gutter('', '=')} {self.paint('note', Style.BOLD)}: {_visible(note)}"
+            yield f"{self.gutter('', '=')} {self.paint('note', Style.BOLD)}: {visible(note)}"
         if diagnostic.help is not None:
-            yield f"{self.gutter('', '=')} {self.paint('help', Style.BOLD)}: {_visible(diagnostic.help)}"
+            yield f"{self.gutter('', '=')} {self.paint('help', Style.BOLD)}: {visible(diagnostic.help)}"
 
     def snippets(self) -> Iterator[str]:
         beside = [mark for mark in self.labels if self.primary and _line_of(mark) == _line_of(self.primary[-1])]
@@ -119,7 +117,7 @@ class _Layout:
                 if found[0].source is not shown:
                     shown = found[0].source
                     place = f"{shown.name}:{found[0].line}:{found[0].start + 1}"
-                    yield f"{' ' * self.width}{self.paint(':::', Style.GUTTER)} {_visible(place)}"
+                    yield f"{' ' * self.width}{self.paint(':::', Style.GUTTER)} {visible(place)}"
                 # The lines of one place follow each other; what lies between them is left out.
                 follows = last is not None and last.primary and found[0].primary
                 if not follows:
@@ -142,7 +140,7 @@ class _Layout:
             end = cells[min(max(mark.end, left), right) - left]
             sign = "^" if mark.primary else "-"
             style = STYLES[self.diagnostic.severity] if mark.primary else Style.GUTTER
-            under = sign * max(1, end - start) + (f" {_visible(mark.text)}" if mark.text else "")
+            under = sign * max(1, end - start) + (f" {visible(mark.text)}" if mark.text else "")
             yield f"{self.gutter('', '|')} {' ' * (len(before) + start)}{self.paint(under, style)}"
 
     def gutter(self, number: str, sign: str) -> str:
@@ -224,7 +222,8 @@ def _expanded(text: str) -> str:
     return "".join(pieces)
 
 
-def _visible(text: str) -> str:
+def visible(text: str) -> str:
+    """A text with stand-ins for the characters that would do something to a terminal instead of being seen."""
     return "".join(map(_seen, text))
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from golc.diagnostics import Code, DeviceError, Findings
+from golc.diagnostics import Code, DeviceError, Diagnostic, Severity
 from golc.nqc.numbering import number_bricks
 from golc.runtime.clock import Clock
 from golc.runtime.devices.bricks import Link
@@ -114,14 +114,13 @@ class Connection:
             return True
         return not (self.simulated and any(actions.handles(event.action, event.args) for actions in self.maps.values()))
 
-    def doubles(self, schedule: Schedule) -> Findings:
+    def doubles(self, schedule: Schedule) -> Iterator[Diagnostic]:
         """Warnings of the lines of the events file that are played here though the brick reports the same."""
-        findings, told = Findings(), set[str]()
+        told = set[str]()
         for entry in schedule.only(self.is_ours).entries:
             name = entry.event.action
             bricks = [brick for brick, actions in self.maps.items() if actions.handles(name, entry.event.args)]
             if bricks and name not in told:
                 told.add(name)
                 message = f"`{name}` is reported by the script, and by the brick `{bricks[0]}` as well"
-                findings.warning(Code.EVENT_OF_BRICK, message, entry.span, help=DOUBLE_HELP)
-        return findings
+                yield Diagnostic(Code.EVENT_OF_BRICK, message, entry.span, Severity.WARNING, help=DOUBLE_HELP)

@@ -23,24 +23,21 @@ from golc.theory.theory import BasicActionTheory
 from golc.theory.types import show
 
 
-def _nowhere(line: str) -> None:
-    """Nobody is to be told."""
-
-
-def _unheard(diagnostics: tuple[Diagnostic, ...]) -> None:
-    """Nobody is to be told."""
+def _unheard(said: object) -> None:
+    """Nobody is there."""
 
 
 @dataclass(frozen=True)
 class Voice:
     """How a run speaks to a person, and listens to one; by default to nobody.
 
-    ``write`` gets each line of the trace, ``complain`` the diagnostics of a refused line. ``verbosity`` is -1 (messages
-    and trouble only), 0, or 1. ``ask`` gets each question to the operator and returns the answer, as ``input`` does;
-    with ``stdin`` the operator sits at standard input instead, and may report exogenous actions there.
+    ``write`` gets each line of the trace, ``complain`` the diagnostics of a line that was refused or is doubtful.
+    ``verbosity`` is -1 (messages and trouble only), 0, or 1. ``ask`` gets each question to the operator and returns the
+    answer, as ``input`` does; with ``stdin`` the operator sits at standard input instead, and may report exogenous
+    actions there.
     """
 
-    write: Callable[[str], object] = _nowhere
+    write: Callable[[str], object] = _unheard
     complain: Callable[[tuple[Diagnostic, ...]], object] = _unheard
     style: Style = field(default=Style(color=False, unicode=True), repr=False)
     verbosity: int = 0

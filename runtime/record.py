@@ -134,7 +134,7 @@ class Record:
             if listener is not None:
                 listener(entry)
 
-    def run(self, program: str, error: GolcError | None = None) -> Run:
+    def result(self, program: str, error: GolcError | None = None) -> Run:
         """What came of the run, which is over; ``error`` is what ended it, if anything did."""
         ended = self.ended
         assert ended is not None

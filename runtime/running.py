@@ -59,5 +59,5 @@ def run(
     except GolcError as error:
         if check or record.ended is None:
             raise
-        return record.run(program, error)
-    return record.run(program)
+        return record.result(program, error)
+    return record.result(program)

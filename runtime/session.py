@@ -66,7 +66,8 @@ class _Session:
         observers = [*self.observers(ready, stack), *watching]
         link = connection.link(scripted, conversation.warn, stack)
         devices = build_devices(self.theory, Surroundings(conversation.desk, conversation.fill_in, link))
-        self.voice.complain(tuple(connection.doubles(schedule).diagnostics))
+        if doubles := tuple(connection.doubles(schedule)):
+            self.voice.complain(doubles)
         clock = connection.clock()
         timetable = Timetable(schedule.only(connection.is_ours), self.inbox, clock)
         sources = [*self.sources(devices, clock), timetable]

@@ -49,7 +49,7 @@ def check_devices(theory: BasicActionTheory, findings: Findings) -> None:
     """Everything about devices that elaboration does not see by itself."""
     if not theory.devices:
         return
-    sound = [device for device in theory.devices if _check_settings(device, findings)]
+    sound = [device for device in theory.devices if check_settings(device, findings)]
     bricks = [number_device(theory, device, findings) for device in theory.devices if device.kind == RCX]
     _check_implicit(theory, findings)
     _check_done(theory, bricks, findings)
@@ -60,7 +60,7 @@ def check_devices(theory: BasicActionTheory, findings: Findings) -> None:
         check_brick(theory, actions, findings)
 
 
-def _check_settings(device: Device, findings: Findings) -> bool:
+def check_settings(device: Device, findings: Findings) -> bool:
     """Whether the settings of a device are known and make sense."""
     before = len(findings.diagnostics)
     for setting in device.settings.values():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import re
 import sys
 from collections.abc import Mapping
 from functools import partial
@@ -16,6 +17,9 @@ from golc.cli.options import Quantity, address, console_options, constants_optio
 if TYPE_CHECKING:
     from golc.runtime.conversation import Voice
     from golc.runtime.settings import OnFailure, Options
+
+COMMANDS = re.compile(r"\x1b(?!\[[0-9;]*m)|[\x00-\x08\x0b-\x1a\x1c-\x1f\x7f-\x9f]")
+"""What could command a terminal, besides colors: a text may have been reported over a network."""
 
 
 def _at_a_failure() -> OnFailure:
@@ -128,9 +132,10 @@ def _voice(console: Console) -> Voice:
 def _write(line: str) -> None:
     """A line to stdout; where nobody can read it any more, the run is to end."""
     from golc.diagnostics import DeviceError
+    from golc.rendering import visible
 
     try:
-        print(line, flush=True)
+        print(COMMANDS.sub(lambda found: visible(found.group()), line), flush=True)
     except OSError as error:
         if error.errno in (errno.EPIPE, errno.EIO):
             raise BrokenPipeError("nobody reads the output any more") from None

@@ -6,9 +6,7 @@ import builtins
 import inspect
 import re
 import sys
-from collections.abc import Iterator
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from golc.embed.names import BUILTINS, WORDS, golc_name
@@ -39,25 +37,23 @@ def cure(error: BaseException, file: str) -> str | None:
         case KeyError(args=(Term(),)):
             return "a term has no value yet: make the dictionary a static, whose value is a table"
         case TypeError(args=(str(text),)) if called := re.match(r"(Theory\.)?(\w+)\(\) (takes|missing|got)", text):
-            return _of_call(text, *called.group(1, 2))
+            return _of_call(error, text, *called.group(1, 2))
     return None
 
 
-def _names_around(error: BaseException) -> Iterator[str]:
+def _names_around(error: BaseException) -> dict[str, Any]:
     """What has a name where an exception was raised."""
     where = innermost(error)
-    if where is not None:
-        yield from where.tb_frame.f_locals
-        yield from where.tb_frame.f_globals
+    return {} if where is None else {**where.tb_frame.f_globals, **where.tb_frame.f_locals}
 
 
-def _of_call(text: str, method: str | None, name: str) -> str | None:
+def _of_call(error: BaseException, text: str, method: str | None, name: str) -> str | None:
     """What a function of this package takes that has been called with something else."""
     from golc import embed
 
     home: Any = embed.Theory if method else embed
     called = embed.Theory if name == "__init__" else getattr(home, name, None)
-    if called is None or isinstance(called, ModuleType):
+    if called is None or (not method and _names_around(error).get(name) is not called):
         return None
     every = [
         each for each in inspect.signature(called).parameters.values() if each.name not in ("self", "what", "function")

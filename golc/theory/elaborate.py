@@ -7,7 +7,7 @@ collects the names, ``context`` resolves each declaration once, the ``elaborate_
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 from typing import TypeVar
 
@@ -61,16 +61,27 @@ def elaborate(
     source: Source,
     findings: Findings,
     constants: Mapping[str, str] | None = None,
-    sources: Sequence[Source] = (),
     trust: bool = False,
 ) -> BasicActionTheory | None:
     """The theory that a file describes, or None if it has errors; every finding is added to ``findings``.
 
-    ``constants`` are values of consts as texts, which replace those in the file (``-D``). ``sources`` are all sources
-    of a file with imports, which have been joined. ``trust``: Python code may be executed; without it there is no
-    theory, only notes, if a value in its declarations takes that. If there are errors among
-    ``findings`` already, the file was not read in full: names that may stand in the parts left out are not reported.
+    ``constants`` are values of consts as texts, which replace those in the file (``-D``). ``trust``: Python code may be
+    executed; without it there is no theory, only notes, if a value in its declarations takes that. Of what could not
+    be read, names that may be declared there are not reported.
     """
+    theory = outlined(file, source, findings, constants, trust)
+    return None if findings.has_errors else theory
+
+
+def outlined(
+    file: tree.File,
+    source: Source,
+    findings: Findings,
+    constants: Mapping[str, str] | None = None,
+    trust: bool = False,
+) -> BasicActionTheory | None:
+    """As ``elaborate``, but if there are errors what is left without the parts that have them, where that can be said;
+    what it speaks of need not be in it."""
     unread = [span.text for span in file.unread]
     assumed = frozenset([word for text in unread for word in WORD.findall(text)])
     nameless = any(map(_brings_a_name, unread))
@@ -84,8 +95,8 @@ def elaborate(
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
-    findings.diagnostics += [finding for finding in found.diagnostics if not _is_about(finding, file.unread)]
-    return None if findings.has_errors else theory
+    findings.diagnostics += [finding for finding in found.diagnostics if not is_about(finding, file.unread)]
+    return theory
 
 
 def _no_imports(file: tree.File, findings: Findings) -> None:
@@ -97,7 +108,7 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
-def _is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:
+def is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:
     """Whether a finding is about what has been passed over: it lies in that, or it is about something which holds a
     part of it, or it speaks of the name that stands for it."""
     span = finding.span

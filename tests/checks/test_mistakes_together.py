@@ -18,8 +18,8 @@ from tests.checks.slips import CORPUS, DOMAIN, Mistake, mistakes
 Said = tuple[str, str]
 """The code and the message of a finding."""
 
-WHOLE = re.compile(r"GL(04|06|07)|GL(033|053|08.|096)$")
-"""What is only asked of a theory without errors: values, proofs, and what devices and their files do with it."""
+WHOLE = re.compile(r"GL(04|06|07)|GL(033|053|080|086|096)$")
+"""What is only asked of a theory without errors: values, proofs, who does or reports an action, files of devices."""
 
 
 def said_alone(mistake: Mistake) -> Said | None:
@@ -79,12 +79,13 @@ def shown(files: Iterator[list[tuple[Mistake, Said]]], find: Callable[[str], Cou
 
 
 def test_ten_mistakes_by_chance_are_shown_together(found_in: Callable[[str], Counter[Said]]) -> None:
-    """Some cannot be: a declaration without a name may be what declares each name that is declared nowhere."""
+    """Some cannot be: a declaration without a name may be what declares each name that is declared nowhere; and where
+    three mistakes meet, what one of them did is no longer clear."""
     choice = random.Random(1)
     made, right, more = shown((chosen(choice, ALONE, 10) for _ in range(60)), found_in)
     assert made == 600
     assert right >= 0.93 * made
-    assert more <= 0.01 * made
+    assert more <= 0.02 * made
 
 
 def test_mistakes_in_one_declaration_are_shown_together(found_in: Callable[[str], Counter[Said]]) -> None:
@@ -99,4 +100,4 @@ def test_mistakes_in_one_declaration_are_shown_together(found_in: Callable[[str]
     made, right, more = shown(iter(files), found_in)
     assert made > 150
     assert right >= 0.93 * made
-    assert more <= 0.01 * made
+    assert more <= 0.02 * made

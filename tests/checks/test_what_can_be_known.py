@@ -88,6 +88,19 @@ def test_an_invariant_that_fails_shows_a_world(tmp_path: Path) -> None:
     assert finding.notes == ("for example where gate = open, load = 2",)
 
 
+@pytest.mark.parametrize(
+    ("also", "notes"),
+    [("", "load = 1"), (" and spare", "load = 1, …")],
+)
+def test_of_a_world_five_values_are_shown(tmp_path: Path, also: str, notes: str) -> None:
+    path = tmp_path / "gates.gl"
+    every = f"gate = open and pit(1) and pit(2) and pit(3) and load = 1{also}"
+    path.write_text(f"{HEAD}fluent spare: bool = unknown\ninvariant safe: not ({every})\n")
+    (finding,) = [finding for finding in examine(path).findings if finding.code.code == "GL052"]
+    known = "gate = open, pit(1) = true, pit(2) = true, pit(3) = true"
+    assert finding.notes == (f"for example where {known}, {notes}",)
+
+
 def test_what_is_known_at_first_may_be_an_invariant(tmp_path: Path) -> None:
     assert found(tmp_path, "invariant sure: known(at) and possible(gate = open)\n") == []
     message = "invariant `sure` is false in a world that is possible at first"
@@ -140,6 +153,8 @@ def test_a_precondition_that_is_never_known_to_hold(tmp_path: Path) -> None:
         "define way := gate = open\naction look:\n    senses way\n",
         # What is sensed is connected with the gate.
         "fluent light = unknown\ninitially light iff gate = open\naction look:\n    senses light\n",
+        "fluent light = unknown\nfluent glow = unknown\ninitially glow iff gate = open\ninitially light iff glow\n"
+        "action look:\n    senses light\n",
         "fluent light = false\naction push:\n    causes light := gate = open\n    senses light\n",
         "fluent light = false\naction push:\n    causes light := true when gate = open\n    senses light\n",
         # That it could happen tells something.

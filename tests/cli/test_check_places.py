@@ -160,3 +160,19 @@ def test_mistakes_in_one_declaration_do_not_hide_each_other(
         (19, 18, "`;` does not join or end statements"),
     ]
     assert err == "checked 1 file: 14 errors; --fix would fix 7 of them\n"
+
+
+def test_numbers_and_settings_of_a_brick_are_checked_although_there_are_errors(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    domain = "domain d\naction go\naction stay\nproc control:\n    gone\n"
+    domain += "device rcx:\n    1 go\n    1 stay\n    set pol 1 s\n"
+    Path("yard.gl").write_text(domain)
+    assert invoke(["check", "--format", "json", "yard.gl"]) == 1
+    found = [(f["span"]["line"], f["code"], f["message"]) for f in json.loads(capsys.readouterr().out)["findings"]]
+    assert found == [
+        (5, "GL013", "unknown action or procedure `gone`"),
+        (8, "GL082", "`stay` takes number 1, which `go` has already"),
+        (9, "GL089", "a device `rcx` has no setting `pol`"),
+    ]

@@ -562,6 +562,7 @@ def test_a_table_from_a_file_is_told_what_is_missing(
             "write `theory.extern(file=…)`",
         ),
         ("from golc.embed import Theory, interval\ninterval(1)", "it takes `low`, `high`"),
+        ("def interval(low, high):\n    pass\n\n\ninterval(1)", None),
         ("from golc.embed import Theory\nTheory()", "it takes `domain`"),
         ("from golc.embed import enum\nenum(['a', 'b'])", "write `enum(*names)` for all that a list has"),
         (

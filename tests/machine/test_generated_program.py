@@ -18,6 +18,7 @@ from golc.loading import load
 from golc.nqc.generate import generate
 from golc.nqc.numbering import number_device
 from golc.nqc.toolchain import Target, compile_program
+from golc.runtime.devices.bricks import Link, RcxDevice
 from golc.runtime.devices.rcx.brick import Brick
 from golc.runtime.devices.rcx.tower import Tower
 from golc.runtime.rcxsim.line import LineOptions
@@ -193,3 +194,28 @@ def test_a_poll_takes_the_air_time_and_a_few_op_codes(robot: Callable[..., Robot
         times.append(there.port.now() - start)
         there.wait(0.037)
     assert 0.0825 < min(times) <= max(times) < most
+
+
+@pytest.mark.parametrize("digits", [2, 6, 10, 16, 40])
+def test_the_number_of_an_event_arrives_in_any_base(tmp_path: Path, digits: int) -> None:
+    domain = (
+        "domain robot\nfluent rung = false\naction ring\nexog rang:\n    causes rung := true\nproc control:\n    ring\n"
+    )
+    brick = (
+        f'device rcx "robot.nqc":\n    0 ring\n    1237 rang\n    set action_digits {digits}\n    set action_base 86\n'
+    )
+    (tmp_path / "robot.gl").write_text(domain + brick)
+    (tmp_path / "robot.nqc").write_text("void ring() { golc_report(EXOG_rang); }\n")
+    theory = load(tmp_path / "robot.gl")
+    actions = number_device(theory, theory.devices[0], Findings())
+    generated = generate(theory, actions, tmp_path / "build", Findings(), False)
+    assert generated is not None
+    image = compile_program(generated.path, generated.folders, Target.RCX, theory.devices[0].span).image
+    end, _ = build(FIRMWARES[image.target], image, Bench(), Options(), LineOptions(), Trace())
+    device = RcxDevice(actions, Link("virtual", transport=VirtualPort(end)))
+    device.open()
+    device.perform("ring", ())
+    reported: list[tuple[str, tuple[object, ...]]] = []
+    for _ in range(5):
+        device.poll(lambda action, args: reported.append((action, args)))
+    assert reported == [("rang", ())]

@@ -219,3 +219,20 @@ def test_an_nqc_file_that_cannot_be_read_is_one_finding(workshop: Workshop) -> N
 def test_how_a_number_needs_one_message_only(workshop: Workshop, first: int, count: int, help_: str | None) -> None:
     found = workshop.found(f"domain d\naction a(n: 1..{count})\ndevice rcx:\n    {first} .. a(n: 1..{count})\n")
     assert [(each.code.code, each.help) for each in found] == ([("GL081", help_)] if first + count > 16 else [])
+
+
+@pytest.mark.parametrize(
+    ("event", "expected"),
+    [
+        ("    causes moving := false\n", []),
+        ("    poss moving\n", []),
+        ("    causes at := 2 when moving\n", []),
+        ("    causes at := 2\n", ["GL087"]),
+    ],
+)
+def test_what_tells_the_end_of_a_task_changes_or_asks_for_what_the_task_changes(
+    workshop: Workshop, event: str, expected: list[str]
+) -> None:
+    text = "domain d\nfluent moving = false\nfluent at: 1..3 = 1\naction drive:\n    causes moving := true\n"
+    text += f"exog arrived:\n{event}device rcx:\n    0 drive by start go\n    1 arrived\n"
+    assert codes(workshop, text) == expected

@@ -25,11 +25,23 @@ fluent fuel: real = 0
 """
 
 
-def shown(formula: str, fails: bool = False, more: str = "") -> dict[str, object]:
+def answer(formula: str, fails: bool = False, more: str = "") -> object:
     theory = theory_of(f"{HEAD}{more}define asked := {formula}\n")
-    found = Prover(theory).answer(Question((), (Asked(theory.definitions["asked"].body),), fails))
+    return Prover(theory).answer(Question((), (Asked(theory.definitions["asked"].body),), fails))
+
+
+def shown(formula: str, fails: bool = False, more: str = "") -> dict[str, object]:
+    found = answer(formula, fails, more)
     assert isinstance(found, Witness), found
     return dict(found.fluents)
+
+
+@pytest.mark.parametrize(
+    "formula",
+    ["2 * y = 7", "3 * y + 1 = 9", "y - 2 * y = y + 1 and y > 0", "far > 1000000", "far < -1000000", "4 * far = 2"],
+)
+def test_what_no_integer_makes_true_has_no_witness(formula: str) -> None:
+    assert answer(formula) is None
 
 
 @pytest.mark.parametrize(
@@ -40,6 +52,7 @@ def shown(formula: str, fails: bool = False, more: str = "") -> dict[str, object
         ("y != 0", {"y": 1}),
         ("far < -700 or far > 800", {"far": -701}),
         ("far > 999999", {"far": 1000000}),
+        ("2 * y = 8", {"y": 4}),
         ("far = -1000000", {"far": -1000000}),
         ("(x = 1 and on(1)) or y = 9", {"y": 9}),
         ("on(x)", {"x": 0, "on(0)": True}),

@@ -375,6 +375,17 @@ device operator:
     assert router.device("greet", ("right",)) is made[1]
 
 
+def test_a_binding_of_a_part_of_a_type_covers_just_that(
+    desk: Desk, unchecked: Callable[[str], BasicActionTheory]
+) -> None:
+    blocks = 'action go(n: 1..9)\ndevice self:\n    go(n: 1..3)\ndevice operator:\n    go(n: 4..9) by prompt "go"\n'
+    theory = unchecked(DOMAIN + blocks)
+    itself, operator = build_devices(theory, Surroundings(desk, lambda message, args: "", None))
+    router = Router([itself, operator], theory)
+
+    assert [router.device("go", (n,)) for n in (1, 3, 4, 9)] == [itself, itself, operator, operator]
+
+
 def test_an_action_that_no_device_does_is_an_error(desk: Desk, unchecked: Callable[[str], BasicActionTheory]) -> None:
     theory = unchecked(DOMAIN + "device self:\n    remember\n    greet(left)\n")
     (itself,) = build_devices(theory, Surroundings(desk, lambda message, args: "", None))

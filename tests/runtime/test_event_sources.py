@@ -129,6 +129,8 @@ def test_a_line_without_an_end_does_not_fill_the_memory() -> None:
     splitter = Splitter()
 
     assert [len(line) for line in splitter.feed(b"x" * (LONGEST_LINE + 5))] == [LONGEST_LINE]
+    assert splitter.feed(b"x" * LONGEST_LINE) == []
+    assert [len(line) for line in splitter.feed(b"\n")] == [LONGEST_LINE]
     assert splitter.feed(b"y\n") == [b"y"]
 
 

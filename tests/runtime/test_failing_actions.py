@@ -37,6 +37,15 @@ def test_a_failed_action_has_no_effects_and_ends_the_run(start: Start, failing: 
     assert run.device.told == ["open", "set_x(1)", "abort", "close"]
 
 
+def test_after_another_action_one_that_has_failed_may_be_tried_again(start: Start, failing: Failing) -> None:
+    body = "choose:\n    a\nor:\n    b\na"
+    policy = Policy(on_failure=lambda label, error: Remedy.NEXT, stop_when_idle=0)
+    run = start(program(body), perform=failing(1), policy=policy)
+
+    assert run.run().end is End.FINAL
+    assert run.story() == ["a", "b", "a"]
+
+
 def test_a_failed_action_is_tried_again(start: Start, failing: Failing) -> None:
     policy = Policy(on_failure=lambda label, error: Remedy.RETRY, retry_after=0)
     run = start(program("set_x(1)"), perform=failing(3), policy=policy)

@@ -512,3 +512,22 @@ def look():
     )
     code, out, _ = golc(tmp_path / "count.gl", "-q", stdin=subprocess.DEVNULL).end()
     assert code == 0 and re.search(r"\b0 are kept", out)
+
+
+def test_what_is_reported_cannot_command_the_terminal(tmp_path: Path, golc: Golcs) -> None:
+    (tmp_path / "greeting.gl").write_text(
+        """domain greeting
+fluent name: string = "nobody"
+exog named(s: string):
+    causes name := s
+proc control:
+    wait until name != "nobody"
+    say "hello {name}"
+"""
+    )
+    (tmp_path / "input").write_text('named("\x1b[2J\x9b2J\U0001f469\u200d\U0001f680")\n')
+    with (tmp_path / "input").open() as lines:
+        code, out, _ = golc(tmp_path / "greeting.gl", "--color", "always", stdin=lines).end()
+    assert (code, "\x1b[2J" in out, "\x9b" in out) == (0, False, False)
+    assert "hello \u241b[2J\ufffd2J\U0001f469\u200d\U0001f680" in out
+    assert "\x1b[1m" in out

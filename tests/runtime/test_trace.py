@@ -141,6 +141,25 @@ def test_messages_tests_and_sensing(start: Start) -> None:
     ]
 
 
+def test_an_answer_is_told_though_it_changes_nothing(start: Start) -> None:
+    lines = traced(start(program("look\na"), perform=lambda action, args: ("red",) if action == "look" else ()))
+
+    assert lines[1:4] == [
+        "→ look                         world         trial.gl:17 control",
+        "  ✓ 0.00 s                                   answered red",
+        "→ a                            world         trial.gl:18 control",
+    ]
+
+
+def test_a_statement_of_more_than_39_characters_is_cut(start: Start) -> None:
+    body = "test x= 0 and x = 0 and x = 0 and x < 9\ntest x = 0 and x = 0 and x = 0 and x < 9"
+
+    assert [line[4:43] for line in traced(start(program(body)), verbosity=1)[1:3]] == [
+        "test x= 0 and x = 0 and x = 0 and x < 9",
+        "test x = 0 and x = 0 and x = 0 and x <…",
+    ]
+
+
 def test_a_blocked_program_says_why_and_for_what_it_waits(start: Start) -> None:
     run = start(program("test p\na"), [[Report("set_p", (), "tcp")]])
 

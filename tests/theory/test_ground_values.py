@@ -18,6 +18,7 @@ DOMAIN = """type colour = {red, green}
 type digit = 0..9
 const half = 0.5
 const few = [1, 2]
+const word = "red"
 exog told(who: string?, ahead: set[colour], way: list[list[digit]], speed: real)
 proc control(x: real?, c: colour, l: list[colour]):
     skip
@@ -48,6 +49,7 @@ def test_values_of_every_type_can_be_typed(theory: Build, text: str, values: tup
         ('"1", red, []', '"1"', '`x` of `control` is of type real or none, not `"1"`'),
         ('1, "red", []', '"red"', '`c` of `control` is of type colour (red, green), not `"red"`'),
         ("red, red, []", "red", "`x` of `control` is of type real or none, not `red`"),
+        ("1, word, []", "word", "`c` of `control` is of type colour (red, green), not `word`"),
         ("1, few, []", "few", "`c` of `control` is of type colour (red, green), not `few`"),
         ("1, red, [yellow]", "yellow", "unknown value `yellow`"),
         ("1, red, digit", "digit", "`l` of `control` is of type list[colour], not `digit`"),
