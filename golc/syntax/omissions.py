@@ -143,7 +143,8 @@ def _missing_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
     """A line that is the block of the one above it, or belongs to it, but is not indented; with what lies below it, if
     that has kept its distance."""
     start = text.line_start(failed.place)
-    lost = failed.begins_line() and (failed.accepts == {"_INDENT"} or str(failed.bad) in BRANCHES)
+    block = failed.accepts == {"_INDENT"} and ("interrupts" in failed.line_before) is (failed.bad == "on")
+    lost = failed.begins_line() and (block or str(failed.bad) in BRANCHES)
     lost = lost or [str(token) for token in failed.line] == ["on"]
     lost = lost or any(failed.accepts == {terminal} and text.goes_on(start, word) for terminal, word in BRANCHED)
     if lost:
