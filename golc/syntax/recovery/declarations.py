@@ -9,9 +9,10 @@ from itertools import pairwise
 from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree as ast
 from golc.syntax.failure import Failure
-from golc.syntax.keywords import CALL, closest
+from golc.syntax.hints.keywords import CALL
 from golc.syntax.layout import split
-from golc.syntax.pieces import Piece, parse_piece
+from golc.syntax.recovery.pieces import Piece, parse_piece
+from golc.syntax.spelling import closest
 from golc.syntax.words import CLAUSES, DECLARATIONS, STATEMENTS
 
 _CONTENT = re.compile(r"^[ \t]*([A-Za-z]\w*|[^\s#])", re.MULTILINE)

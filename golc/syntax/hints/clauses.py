@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, Span
 from golc.syntax.failure import LAYOUT, Failure, Hint
-from golc.syntax.fixes import instead, removal, sign_at
-from golc.syntax.keywords import AFTER, closest
-from golc.syntax.signs import OPERATORS
+from golc.syntax.hints.fixes import instead, removal, sign_at
+from golc.syntax.hints.keywords import AFTER
+from golc.syntax.hints.signs import OPERATORS
+from golc.syntax.spelling import closest
 
 WITHOUT_COLON = {
     "initially": "a formula",

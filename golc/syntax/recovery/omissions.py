@@ -11,14 +11,11 @@ from dataclasses import dataclass
 
 from golc.diagnostics import Edit, Span
 from golc.syntax.failure import LAYOUT, Failure, wants
-from golc.syntax.fixes import INDENT
-from golc.syntax.keywords import closest
-from golc.syntax.layout import CLOSING, OPENING, LayoutError
-from golc.syntax.reading import Reading
+from golc.syntax.layout import CLOSING, INDENT, OPENING, LayoutError
+from golc.syntax.recovery.reading import Reading
+from golc.syntax.spelling import closest
+from golc.syntax.tree import STAND_IN
 from golc.syntax.words import BRANCHES, DECLARATIONS, OTHER_NAMES
-
-STAND_IN = "unread"
-"""What stands for a part that is passed over, with underscores behind it if the text has this name."""
 
 HEADS = ("if {}", "on {}", "elif {}", "else", "or", "and", "over")
 """What a line with a block below it may be instead of what it is."""

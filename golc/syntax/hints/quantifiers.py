@@ -8,9 +8,9 @@ from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Label
 from golc.syntax.failure import Failure
-from golc.syntax.fixes import instead, sign_at
-from golc.syntax.keywords import closest
+from golc.syntax.hints.fixes import instead, sign_at
 from golc.syntax.layout import CLOSING, OPENING
+from golc.syntax.spelling import closest
 
 QUANTIFIERS = frozenset({"EXISTS", "FORALL", "COUNT", "SUM", "MIN", "MAX"})
 COMPARISONS = frozenset({"CMP", "EQ", "IN"})

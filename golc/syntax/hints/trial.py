@@ -10,7 +10,7 @@ from lark.parsers.lalr_parser_state import ParserState
 
 from golc.diagnostics import Code, Diagnostic, Fix, Span
 from golc.syntax.failure import LAYOUT, Failure, without_trees
-from golc.syntax.fixes import sign_at, without
+from golc.syntax.hints.fixes import sign_at, without
 from golc.syntax.layout import CLOSING, OPENING, LayoutError
 from golc.syntax.parser import parser
 from golc.syntax.terminals import TITLES, title, titles, word_of
@@ -25,7 +25,7 @@ CERTAIN = frozenset({"COLON", "EQ", "ASSIGN", "COMMA", "BY", "FROM", "WHERE"})
 """What can stand nowhere else: of a bracket nobody knows where it was to be."""
 
 
-def repaired(failure: Failure) -> Diagnostic | None:
+def one_token_off(failure: Failure) -> Diagnostic | None:
     """Something forgotten before the bad token, or the bad token one too many."""
     if failure.bad is None:
         return None

@@ -7,8 +7,8 @@ and the open brackets; the first that recognises its own speaks.
 from __future__ import annotations
 
 from golc.diagnostics import Diagnostic
-from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, lines, quantifiers, signs, steps
 from golc.syntax.failure import Failure, Hint
+from golc.syntax.hints import blocks, choices, clauses, foreign, gaps, keywords, lines, quantifiers, signs, steps
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
