@@ -23,7 +23,7 @@ TITLES = {
 }
 
 BRANCHING = {"OR": "or", "AND": "and", "_OVER": "over"}
-"""The words that begin another branch of a statement."""
+"""The words that begin a further branch of a statement."""
 
 
 def word_of(terminal: str) -> str | None:

@@ -14,6 +14,9 @@ from golc.syntax.spelling import close, closest, meant_declaration
 from golc.syntax.terminals import word_of
 from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, STATEMENTS
 
+CALL = r"[A-Za-z]\w*[ \t]*(?:\([^\n]*\))?"
+"""A line that may be a call."""
+
 
 def no_declaration(failure: Failure) -> Diagnostic | None:
     """A line in the first column that begins no declaration."""
@@ -44,7 +47,7 @@ def no_declaration(failure: Failure) -> Diagnostic | None:
         return _lost_binding(failure, span)
     kinds = ", ".join(f"`{kind}`" for kind in DECLARATIONS[1:])
     help = f"a declaration begins with {kinds}"
-    if re.match(r"\w+[ \t]*(\(.*\))?[ \t]*(#|$)", failure.rest):
+    if re.match(CALL + r"[ \t]*(#|$)", failure.rest):
         help = "a call is indented below its `proc`; " + help
     return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, help)
 

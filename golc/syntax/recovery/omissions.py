@@ -16,7 +16,7 @@ from golc.syntax.recovery.reading import Reading
 from golc.syntax.spelling import meant_declaration
 from golc.syntax.terminals import BRANCHING
 from golc.syntax.tree import STAND_IN
-from golc.syntax.words import DECLARATIONS
+from golc.syntax.words import BRANCHES, DECLARATIONS
 
 HEADS = ("if {}", "on {}", "elif {}", "else", "or", "and", "over")
 """What a line with a block below it may be instead of what it is."""
@@ -41,6 +41,7 @@ def omissions(reading: Reading) -> Iterator[Omission]:
     if isinstance(failed, LayoutError):
         yield from _other_indentation(text, failed)
     elif failed is not None:
+        yield from _missing_indentation(text, failed)
         yield from _missing_blocks(text, failed)
         yield from _missing_branches(text, failed)
         yield from _needless_indentation(text, failed)
@@ -85,6 +86,21 @@ class _Text:
         line = self.text[start : self.line_end(start)]
         return line[: len(line) - len(line.lstrip(" "))]
 
+    def statement(self, start: int) -> list[int]:
+        """Where the lines of the statement begin that begins at an offset, with its branches; comments are left out."""
+        margin = self.indentation(start)
+        branch = re.compile(rf"{margin}(?:{'|'.join(BRANCHES)})\b.*:")
+        end = self.block_end(start, self.line_end(start))
+        while branch.match(self.text, end + 1):
+            end = self.block_end(end + 1, self.line_end(end + 1))
+        return [at for at in self.lines(start, end) if self.text[at:].lstrip(" ")[:1] != "#"]
+
+    def goes_on(self, start: int, word: str) -> bool:
+        """Whether, after the line that begins at an offset, one in its column begins with a word and a colon."""
+        place = start + len(self.indentation(start))
+        below = re.compile(f"^{self.indentation(start)}{word}[ \\t]*:", re.MULTILINE)
+        return below.search(self.text, self.line_end(place)) is not None
+
     def block_end(self, start: int, end: int) -> int:
         """The end of the block that lies below the line ``start..end``, which is ``end`` if there is none."""
         width, last = len(self.indentation(start)), end
@@ -117,6 +133,25 @@ def _needless_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
         width = failed.place - start - len(text.indentation(above))
         lines = [place for place in text.lines(start, end) if text.text[place:].startswith(" " * width)]
         yield Omission(text.span(start, first), tuple([Edit(text.span(at, at + width), "") for at in lines]))
+
+
+def _missing_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
+    """A line that is the block of the one above it, or belongs to it, but is not indented; with what lies below it, if
+    that has kept its distance."""
+    start = text.line_start(failed.place)
+    block = failed.accepts == {"_INDENT"} and ("interrupts" in failed.line_before) is (failed.bad == "on")
+    lost = failed.begins_line() and (block or str(failed.bad) in BRANCHES)
+    lost = lost or [str(token) for token in failed.line] == ["on"]
+    lost = lost or any(
+        failed.accepts == {terminal} and text.goes_on(start, word) for terminal, word in BRANCHING.items()
+    )
+    if lost:
+        end = text.line_end(start)
+        width = len(text.indentation(start)) + INDENT
+        lines = text.statement(start)
+        whole = lines[1:] and len(text.indentation(lines[1])) == width and _HEAD.search(text.text[start:end])
+        places = lines if whole else [start]
+        yield Omission(text.span(start, start), tuple([Edit(text.span(at, at), " " * INDENT) for at in places]))
 
 
 def _missing_blocks(text: _Text, failed: Failure) -> Iterator[Omission]:
