@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from golc.diagnostics import Edit, Span
+from golc.syntax.draft import Draft
 from golc.syntax.failure import LAYOUT, Failure, wants
 from golc.syntax.fixes import INDENT
 from golc.syntax.keywords import closest
@@ -18,7 +19,7 @@ from golc.syntax.reading import Reading
 from golc.syntax.words import DECLARATIONS, OTHER_NAMES
 
 STAND_IN = "unread"
-"""What stands for a part that is passed over, with underscores behind it if the text has this name."""
+"""What stands for a part that is passed over, with underscores behind it if the file has this name."""
 
 HEADS = ("if {}", "on {}", "elif {}", "else", "or", "and", "over")
 """What a line with a block below it may be instead of what it is."""
@@ -39,7 +40,7 @@ class Omission:
 
 def omissions(reading: Reading) -> Iterator[Omission]:
     """What could be passed over so that a reading comes further, the smallest first."""
-    failed, text = reading.error, _Text(reading.draft.whole)
+    failed, text = reading.error, _Text(reading.draft)
     if isinstance(failed, LayoutError):
         yield from _other_indentation(text, failed)
     elif failed is not None:
@@ -53,11 +54,11 @@ def omissions(reading: Reading) -> Iterator[Omission]:
 class _Text:
     """The text of a draft by its offsets."""
 
-    def __init__(self, whole: Span) -> None:
-        self.whole = whole
-        self.text = whole.text
+    def __init__(self, draft: Draft) -> None:
+        self.whole = draft.whole
+        self.text = draft.whole.text
         self.name = STAND_IN
-        while self.name in self.text:
+        while self.name in self.text or self.name in draft.part.source.text:
             self.name += "_"
 
     def omission(self, start: int, end: int, text: str) -> Omission:
@@ -150,9 +151,11 @@ def _expressions(text: _Text, failed: Failure) -> Iterator[Omission]:
 
 
 def _beginnings(failed: Failure) -> Iterator[int]:
-    words = failed.line if failed.bad is None or failed.kind in LAYOUT else [*failed.line, failed.bad]
+    read = list(zip(failed.line, failed.stacks, strict=False))
+    if failed.bad is not None and failed.kind not in LAYOUT and len(read) == len(failed.line):
+        read.append((failed.bad, failed.stack))
     depth = 0
-    for word, stack in zip(words, failed.stacks, strict=False):
+    for word, stack in read:
         depth -= word.type in CLOSING
         if depth == 0 and wants(failed.start, stack, "TRUE"):
             yield word.start_pos or 0
