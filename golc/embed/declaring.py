@@ -92,7 +92,12 @@ class Declaring:
             if isinstance(function, str):
                 raise  # A name where the function belongs: there is nothing that could be gone on with.
             return self._broken(error, function, kind, name, space)
-        self._keep(text, kind, lambda: make(Translator(meant), ident), space)
+
+        def making() -> tree.Declaration:
+            translator = Translator(meant)
+            return translator.whole(lambda: make(translator, ident))
+
+        self._keep(text, kind, making, space)
         return self._handle(text, kind, tuple(golc_name(arg.arg) for arg in meant.parameters()))
 
     def _broken(self, error: Refused, function: object, kind: str, name: str | None, space: object) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
@@ -83,14 +83,11 @@ class Parts:
         with deep_recursion():
             owners = self._joined()
             for making in self._makings(set()):
-                try:
-                    node = making()
-                    check_owners(nodes(node), owners)
-                except Refused as error:
+                node, wrong = _made(making, owners)
+                made += node
+                for error in wrong:
                     findings.diagnostics += error.diagnostics
-                    unread += [statement_around(finding.span) for finding in error.diagnostics]
-                else:
-                    made.append(node)
+                    unread += error.unread or map(statement_around, (each.span for each in error.diagnostics))
         sources = {id(each): each for each in (self.place.source, *(node.span.source for node in made))}
         file = tree.File(self.domain, tuple(made), unread=tuple(unread), span=self.place)
         return Written(file, findings, tuple(sources.values()))
@@ -111,6 +108,22 @@ class Parts:
             found |= new
             waiting += new
         return found
+
+
+def _made(making: Making, owners: Container[Parts]) -> tuple[list[tree.Declaration], list[Refused]]:
+    """The declaration that is made, if anything is left of it, and what is wrong with it."""
+    wrong: list[Refused] = []
+    try:
+        node: tree.Declaration | None = making()
+    except Refused as error:
+        node = error.rest
+        wrong.append(error)
+    try:
+        check_owners(nodes(node) if node else (), owners)
+    except Refused as error:
+        node = None
+        wrong.append(error)
+    return [node] if node else [], wrong
 
 
 def _is_interactive() -> bool:

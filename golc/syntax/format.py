@@ -16,11 +16,10 @@ from dataclasses import replace
 from golc.diagnostics import Findings, Source
 from golc.syntax.breaks import Breaks
 from golc.syntax.comments import Line, Row, lines
-from golc.syntax.layout import CLOSING, OPENING
+from golc.syntax.layout import CLOSING, INDENT, OPENING
 from golc.syntax.parentheses import without_needless
 from golc.syntax.parse import parse_file
 
-INDENT = 4
 WIDTH = 100
 """Columns of a line, without the comment at its end."""
 

@@ -11,6 +11,9 @@ from lark.lark import PostLex
 
 from golc.syntax.words import DECLARATIONS
 
+INDENT = 4
+"""Spaces for each level of blocks, as golc writes them; it reads any number."""
+
 DEEPEST = 500
 """Levels of nesting that a text and its tree may have."""
 

@@ -11,8 +11,8 @@ from golc.diagnostics import Code, Findings, Source, Span
 from golc.syntax import tree as ast
 from golc.syntax.layout import LayoutError, split
 from golc.syntax.parser import parser
-from golc.syntax.pieces import builder, parse_inner
-from golc.syntax.recover import recover
+from golc.syntax.recovery.declarations import recover
+from golc.syntax.recovery.pieces import builder, parse_inner
 
 
 def parse_file(source: Source, findings: Findings) -> ast.File | None:

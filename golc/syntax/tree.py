@@ -546,6 +546,10 @@ Declaration: TypeAlias = (
 )
 
 
+STAND_IN = "unread"
+"""The name that stands for a part which could not be read, with underscores behind it if the text has this name."""
+
+
 @dataclass(frozen=True)
 class File(Node):
     """A whole file: its domain's name and its declarations in order; ``unread`` is what could not be read of it."""

@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterable, Iterator
 
 from golc.syntax import tree as ast
+from golc.syntax.layout import INDENT
 from golc.syntax.notation import (
     binders,
     commas,
@@ -19,7 +20,7 @@ from golc.syntax.notation import (
 
 __all__ = ["unparse", "unparse_declaration", "unparse_expression", "unparse_statement"]
 
-INDENT = "    "
+DEEPER = " " * INDENT
 
 AFTER, ACTIONS, UNTIL, WAITING = r"after\b", r"actions *\[", r"until\b", r"waiting$"
 """How a text begins that, in one place of the grammar each, is read as a word of the language."""
@@ -121,7 +122,7 @@ def _key(key: tuple[ast.Expr, ...]) -> str:
 
 def _with_block(head: str, items: Iterable[ast.Node]) -> Iterator[str]:
     """A head, and its items in a block if there are any."""
-    lines = [INDENT + _item(item) for item in items]
+    lines = [DEEPER + _item(item) for item in items]
     yield f"{head}:" if lines else head
     yield from lines
 
@@ -136,8 +137,8 @@ def _axiom(axiom: ast.Axiom) -> Iterator[str]:
     yield f"axiom {axiom.fluent.text}" + (f"({parameters}):" if parameters else ":")
     for case in axiom.cases:
         value = unparse_expression(case.value)
-        yield f"{INDENT}after {_pattern(case.pattern)} := {value}{condition('when', case.condition)}"
-    yield f"{INDENT}otherwise unchanged"
+        yield f"{DEEPER}after {_pattern(case.pattern)} := {value}{condition('when', case.condition)}"
+    yield f"{DEEPER}otherwise unchanged"
 
 
 def _pattern(pattern: ast.Pattern) -> str:
@@ -235,7 +236,7 @@ def _binding_arg(arg: ast.Parameter | ast.Ident | ast.Number | ast.Truth | ast.N
 def _block(block: ast.Block) -> Iterator[str]:
     for statement in block.statements:
         for line in _statement(statement):
-            yield INDENT + line
+            yield DEEPER + line
 
 
 def _statement(statement: ast.Statement) -> Iterator[str]:
@@ -249,8 +250,8 @@ def _statement(statement: ast.Statement) -> Iterator[str]:
             yield from _block(block)
         else:
             for handler in block:
-                yield f"{INDENT}{_on(handler)}:"
-                yield from (INDENT + line for line in _block(handler.body))
+                yield f"{DEEPER}{_on(handler)}:"
+                yield from (DEEPER + line for line in _block(handler.body))
 
 
 def _simple(statement: ast.Statement) -> str:

@@ -13,7 +13,6 @@ from typing import TypeVar
 
 from golc.diagnostics import Code, Diagnostic, Findings, Label, Source, Span
 from golc.syntax import tree
-from golc.syntax.omissions import STAND_IN
 from golc.syntax.words import RESERVED
 from golc.theory import elaborate_actions as actions
 from golc.theory import elaborate_statements as programs
@@ -47,7 +46,7 @@ from golc.theory.unfolding import check_unfolding
 
 T = TypeVar("T")
 
-_STAND_IN = re.compile(f"`({STAND_IN}_*)`")
+_STAND_IN = re.compile(f"`({tree.STAND_IN}_*)`")
 
 _NAMELESS = re.compile(
     r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal|let|for|pick|on some)"
@@ -95,7 +94,7 @@ def outlined(
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
-    findings.diagnostics += [finding for finding in found.diagnostics if not is_about(finding, file.unread)]
+    findings.diagnostics += [finding for finding in found.diagnostics if not _is_about(finding, file.unread)]
     return theory
 
 
@@ -108,7 +107,7 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
-def is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:
+def _is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:
     """Whether a finding is about what has been passed over: it lies in that, or it is about something which holds a
     part of it, or it speaks of the name that stands for it."""
     span = finding.span

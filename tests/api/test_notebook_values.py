@@ -129,16 +129,17 @@ def test_a_theory_in_python_shows_what_is_loaded_of_it(tmp_path: Path) -> None:
 
     assert texts(theory._repr_html_()) == [
         *("lift", f" ({path}): not finished, 1 finding"),
-        *("declared so far", "fluent", "at"),
+        *("declared so far", "fluent", "at", "action", "up"),
         f"error[GL012]: `top` is neither a Python constant nor declared\n --> {path}:6:15\n  |\n"
         "6 |     poss(at < top)\n  |               ^^^\n"
         "  = help: assign it, declare it with the theory, or import it from `golc.embed`",
     ]
-    assert str(theory).splitlines()[:4] == [
+    assert str(theory).splitlines()[:5] == [
         f"domain lift ({path}): not finished, 1 finding",
         "",
         "declared so far",
         "  fluent         at",
+        "  action         up",
     ]
 
     names["top"] = 3

@@ -23,6 +23,7 @@ fluent paint: colour = red
 fluent seen: set[station] = {}
 fluent next: station? = none
 fluent total: int = 0
+fluent lit(s: station) = false
 extern near(a: station, b: station) from "map.py"
 extern after(a: station): station from "map.py"
 extern perhaps(a: station): station? from "map.py"
@@ -63,10 +64,10 @@ PROVED = {
     "a value of the type": "action a:\n    causes at := after(at)\n",
     "an optional value": "action a:\n    poss at = 1\n    causes at := perhaps(2) when perhaps(2) != none\n",
     "an optional value of an optional fluent": "action a:\n    causes next := perhaps(at)\n",
-    "an optional number without bounds": "action a:\n    causes total := most(at) when most(at) != none\n",
+    "an optional number without bounds": "action a:\n    causes total := most(at) if most(at) != none else total\n",
     "a symbol": "action a:\n    causes paint := colour_of(at)\n",
     "a set": "action a:\n    causes seen := around(at) + seen\n",
-    "elements of a set": "action a:\n    causes forall n in around(at). seen := seen + {n} when n = at\n",
+    "elements of a set": "action a:\n    causes forall n in around(at). lit(n) := n in seen\n",
     "a number without bounds": "action a:\n    causes total := total + steps(total)\n",
     "calls of calls": "action a:\n    causes at := after(after(at))\n",
     "a precondition that takes care": "action a(n: station):\n    poss metres(at, n) <= left\n"

@@ -7,9 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from golc.diagnostics import Diagnostic
+from golc.diagnostics import Diagnostic, Findings, Source
 from golc.embed.modules import read_theory
 from golc.loading import examine
+from golc.syntax.parse import parse_file
 from golc.syntax.unparse import unparse
 
 Text = Callable[[str], str]
@@ -316,20 +317,24 @@ def test_a_file_that_python_cannot_run_is_one_finding(
     assert message in found.message
 
 
-def test_nesting_is_as_deep_as_in_a_text(wrong_with: Wrong) -> None:
-    (found,) = wrong_with(
-        """
+@pytest.mark.parametrize(("count", "places"), [(499, []), (500, [("GL008", 8)])])
+def test_nesting_is_as_deep_as_in_a_text(wrong_with: Wrong, count: int, places: list[tuple[str, int]]) -> None:
+    found = wrong_with(
+        f"""
         from golc.embed import Theory
 
         theory = Theory("d")
         total = theory.fluent("level", int, 0)
-        for k in range(501):
+        for k in range({count}):
             total = total + 1
         theory.goal("g", total == 1)
         """
     )
+    findings = Findings()
+    parse_file(Source("d.gl", f"domain d\nfluent level: int = 0\ngoal g: level{' + 1' * count} = 1\n"), findings)
 
-    assert (found.code.code, found.span.line) == ("GL008", 8)
+    assert [(each.code.code, each.span.line) for each in found] == places
+    assert [each.code.code for each in findings.diagnostics] == [code for code, _ in places]
 
 
 def test_a_failure_in_a_called_function_shows_both_places(wrong_with: Wrong) -> None:

@@ -113,3 +113,66 @@ def test_what_plain_functions_print_and_import_stays_out_of_the_results(
     out, err = capfd.readouterr()
     assert out == "up\nup\n"
     assert "asked" in err
+
+
+CROWDED = """\
+from golc.embed import Theory, causes, interval, poss
+
+theory = Theory("lift")
+floor = theory.type("floor", interval(1, 6))
+at = theory.fluent("at", floor, 9)
+
+
+@theory.fluent
+def lit(n: floor):
+    return n is not at
+
+
+@theory.action
+def up():
+    poss(at + 1 in flor)
+    causes(at, at + "x")
+
+
+@theory.action
+def off(n: floor):
+    poss(lit(n, 1))
+    causes(lit(n), Flase)
+
+
+@theory.proc
+def control():
+    if at == 1:
+        down()
+    while lit(red):
+        try:
+            up()
+        finally:
+            off(7)
+        off(7)
+    return 3
+    off(1, 2)
+"""
+
+
+def test_mistakes_in_one_function_do_not_hide_each_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("lift.py").write_text(CROWDED)
+    assert invoke(["check", "-q", "--format", "json", "lift.py"]) == 1
+    found = json.loads(capsys.readouterr().out)["findings"]
+    assert [(f["span"]["line"], f["span"]["column"], f["code"], f["message"]) for f in found] == [
+        (5, 33, "GL017", "`9` is outside `floor` (1..6)"),
+        (10, 12, "GL143", "`is` asks for one object of Python, not for equal values"),
+        (15, 20, "GL012", "`flor` is neither a Python constant nor declared"),
+        (16, 21, "GL016", '`"x"` is of type `str`, but `+` needs a number'),
+        (21, 10, "GL015", "`lit` takes 1 argument, not 2"),
+        (22, 20, "GL012", "`Flase` is neither a Python constant nor declared"),
+        (28, 9, "GL012", "`down` is neither a Python constant nor declared"),
+        (29, 15, "GL012", "`red` is neither a Python constant nor declared"),
+        (30, 9, "GL143", "a program catches nothing"),
+        (34, 13, "GL017", "`7` is outside `floor` (1..6)"),
+        (35, 5, "GL143", "a procedure has no value, and no way out but its end"),
+        (36, 5, "GL015", "`off` takes 1 argument, not 2"),
+    ]

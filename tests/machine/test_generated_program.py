@@ -198,13 +198,9 @@ def test_a_poll_takes_the_air_time_and_a_few_op_codes(robot: Callable[..., Robot
 
 @pytest.mark.parametrize("digits", [2, 6, 10, 16, 40])
 def test_the_number_of_an_event_arrives_in_any_base(tmp_path: Path, digits: int) -> None:
-    domain = (
-        "domain robot\nfluent rung = false\naction ring\nexog rang:\n    causes rung := true\nproc control:\n    ring\n"
-    )
-    brick = (
-        f'device rcx "robot.nqc":\n    0 ring\n    1237 rang\n    set action_digits {digits}\n    set action_base 86\n'
-    )
-    (tmp_path / "robot.gl").write_text(domain + brick)
+    settings = f"    set action_digits {digits}\n    set action_base 86\n"
+    domain = f'domain robot\naction ring\nexog rang\ndevice rcx "robot.nqc":\n    0 ring\n    1237 rang\n{settings}'
+    (tmp_path / "robot.gl").write_text(domain)
     (tmp_path / "robot.nqc").write_text("void ring() { golc_report(EXOG_rang); }\n")
     theory = load(tmp_path / "robot.gl")
     actions = number_device(theory, theory.devices[0], Findings())

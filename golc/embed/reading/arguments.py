@@ -8,8 +8,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from golc.diagnostics import Code, Span
-from golc.embed.errors import refused
+from golc.diagnostics import Code, Diagnostic, Span
+from golc.embed.errors import Refused, refused
 from golc.embed.reading.evaluate import Evaluator
 from golc.embed.reading.functions import Function
 from golc.embed.values import elements
@@ -17,12 +17,24 @@ from golc.syntax import tree
 
 
 class Arguments(ABC):
-    """Looks at one function. ``bound`` are the variables of the language at the place, by their Python names."""
+    """Looks at one function. ``bound`` are the variables of the language at the place, by their Python names.
+
+    ``unread`` are the parts that have been passed over so far, and ``found`` is what is said of them, each once.
+    """
 
     def __init__(self, function: Function) -> None:
         self.function = function
+        self.found: dict[Diagnostic, None] = {}
+        self.unread: list[Span] = []
         self.bound: set[str] = {arg.arg for arg in function.parameters()}
         self.python = Evaluator(function, self.bound.__contains__)
+
+    def pass_over(self, error: Refused, node: Any) -> Span:
+        """Keep what is said of a part that cannot be translated, and go on without it."""
+        span = self.span(node)
+        self.found.update(dict.fromkeys(error.diagnostics))
+        self.unread.append(span)
+        return span
 
     def span(self, node: Any) -> Span:
         return self.function.place(node)

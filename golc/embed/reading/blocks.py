@@ -131,8 +131,9 @@ class Blocks(Bodies):
             self.arguments(self._opening(part)[1], 0)
             yield self.block(part.body)
 
+        known = len(self.found)
         branches = self.each(node.body, branch)
-        if len(branches) < 2:
+        if len(branches) < 2 and len(self.found) == known:
             raise meaningless(f"`{word.name}` needs two branches", self.span(call), "write a second `with branch():`")
         return branches
 

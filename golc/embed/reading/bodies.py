@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import pairwise
 from typing import TypeVar
 
-from golc.diagnostics import Code, Diagnostic, Span
+from golc.diagnostics import Code, Span
 from golc.embed import words
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.reading.evaluate import NOT_PYTHON
@@ -43,16 +43,13 @@ class Bodies(Expressions):
         raise meaningless("the body of this function is one `return`", self.head(first), help_)
 
     def each(self, nodes: Iterable[ast.stmt], translate: Callable[[ast.stmt], Iterable[T]]) -> tuple[T, ...]:
-        """What every statement becomes. Raises ``Refused`` with all findings at the end."""
+        """What every statement becomes that can be translated; what is wrong with the others is kept."""
         made: list[T] = []
-        found: list[Diagnostic] = []
         for node in nodes:
             try:
                 made += translate(node)
             except Refused as error:
-                found += error.diagnostics
-        if found:
-            raise Refused(*found)
+                self.pass_over(error, node)
         return tuple(made)
 
     def unrolled(self, node: ast.For, translate: Callable[[ast.stmt], Iterable[T]]) -> Iterator[T]:
@@ -67,7 +64,10 @@ class Bodies(Expressions):
         self.no_else(node)
         # The order of a set changes from run to run.
         ordered = sorted(values, key=repr) if isinstance(values, (set, frozenset)) else values
+        before = len(self.found)
         for value in elements(ordered, self.span(node.iter)):
+            if len(self.found) > before:
+                return  # what is wrong in one round is wrong in most
             with self._round(node.target, value):
                 yield from self.each(node.body, translate)
 

@@ -6,9 +6,10 @@ meaning in such a declaration.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import TypeAlias
 
-from golc.embed.errors import meaningless
+from golc.embed.errors import Refused, meaningless
 from golc.embed.reading.actions import Actions
 from golc.embed.reading.axioms import Axioms
 from golc.embed.reading.devices import Devices
@@ -22,6 +23,16 @@ Formula: TypeAlias = type[tree.Invariant] | type[tree.Goal] | type[tree.Prune]
 
 class Translator(Actions, Axioms, Scenarios, Devices, Programs):
     """Everything that a translated function may hold."""
+
+    def whole(self, make: Callable[[], tree.Declaration]) -> tree.Declaration:
+        """What is made of the function. Raises ``Refused`` with all that is wrong in it, and with what is left."""
+        try:
+            made = make()
+        except Refused as error:
+            raise Refused(*dict.fromkeys((*self.found, *error.diagnostics))) from None
+        if self.found:
+            raise Refused.but(self.found, made, self.unread)
+        return made
 
 
 def const(t: Translator, name: tree.Ident) -> tree.Const:

@@ -9,7 +9,7 @@ from typing import Any, Literal
 
 from golc.diagnostics import Code, Span
 from golc.embed import words
-from golc.embed.errors import meaningless, refused
+from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.names import golc_name
 from golc.embed.reading.binders import chain
 from golc.embed.reading.calls import Calls
@@ -52,7 +52,14 @@ class Expressions(Calls):
     """Translates the expressions of one function."""
 
     def expr(self, node: ast.expr) -> tree.Expr:
-        """A term or formula. Raises ``Refused`` for Python that is none."""
+        """A term or formula; for Python that is none a name that stands for it, and what is wrong is kept."""
+        try:
+            return self._expr(node)
+        except Refused as error:
+            span = self.pass_over(error, node)
+            return tree.Apply(tree.Ident(tree.STAND_IN, span=span), (), span=span)
+
+    def _expr(self, node: ast.expr) -> tree.Expr:
         value = self.python(node)
         if value is not NOT_PYTHON:
             return self._of_value(node, value)
@@ -135,7 +142,7 @@ class Expressions(Calls):
                 case ast.FormattedValue():
                     raise meaningless("a hole in a message has no format", self.span(piece), "write `{e}` alone")
                 case _:
-                    text = self.expr(piece)
+                    text = self._expr(piece)
                     if not isinstance(text, tree.Message):
                         written = self.span(node).text
                         help_ = 'write one `f"… {e}"`' if '"' in written else f'write `f"{{{written}}}"`'

@@ -157,6 +157,8 @@ def d_exists():
     return exists(station, lambda n: free(n)) and forall(station, lambda n: free(n))
 #! 12+6 GL143 `exists(…)` is for Python outside translated functions
 #! help: write `any(φ for n in station)`
+#! 51+6 GL143 `forall(…)` is for Python outside translated functions
+#! help: write `all(φ for n in station)`
 
 
 @theory.define

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 from collections.abc import Iterable
 
@@ -10,9 +9,13 @@ from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Fix, Span
 from golc.syntax.failure import Failure
-from golc.syntax.fixes import instead
+from golc.syntax.hints.fixes import instead
+from golc.syntax.spelling import close, closest
 from golc.syntax.terminals import word_of
 from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, OTHER_NAMES, STATEMENTS
+
+CALL = r"[A-Za-z]\w*[ \t]*(?:\([^\n]*\))?"
+"""A line that may be a call."""
 
 
 def no_declaration(failure: Failure) -> Diagnostic | None:
@@ -44,7 +47,7 @@ def no_declaration(failure: Failure) -> Diagnostic | None:
         return _lost_binding(failure, span)
     kinds = ", ".join(f"`{kind}`" for kind in DECLARATIONS[1:])
     help = f"a declaration begins with {kinds}"
-    if re.match(r"\w+[ \t]*(\(.*\))?[ \t]*(#|$)", failure.rest):
+    if re.match(CALL + r"[ \t]*(#|$)", failure.rest):
         help = "a call is indented below its `proc`; " + help
     return failure.finding(Code.SYNTAX, f"`{found}` begins no declaration", span, help)
 
@@ -97,7 +100,7 @@ def _misspelt(failure: Failure, token: Token | None, accepts: frozenset[str]) ->
 
 def _spelt(span: Span, ours: str, words: Iterable[str]) -> Fix | None:
     """Our spelling, if no other word is close."""
-    return instead(span, ours) if _close(span.text, words) == [ours] else None
+    return instead(span, ours) if close(span.text, words) == [ours] else None
 
 
 def reserved(failure: Failure) -> Diagnostic | None:
@@ -126,20 +129,6 @@ AFTER = {
     **dict.fromkeys(("known", "knows", "possible"), "an argument in parentheses"),
 }
 """What has to stand behind a word that begins an expression."""
-
-
-def closest(word: str, words: Iterable[str]) -> str | None:
-    """The word that was probably meant; short ones have to be nearer."""
-    found = _close(word, words)
-    return found[0] if found else None
-
-
-def _close(word: str, words: Iterable[str]) -> list[str]:
-    """The words that may have been meant, the closest first; those with the same letters exclude all others."""
-    candidates, lower = list(words), word.lower()
-    swapped = [candidate for candidate in candidates if sorted(candidate) == sorted(lower)]
-    near = difflib.get_close_matches(lower, candidates, n=3, cutoff=0.7 if len(word) > 3 else 0.8)
-    return swapped or (near if len(word) > 2 else [])
 
 
 def _words(terminals: Iterable[str]) -> list[str]:

@@ -7,12 +7,12 @@ and the open brackets; the first that recognises its own speaks.
 from __future__ import annotations
 
 from golc.diagnostics import Diagnostic
-from golc.syntax import blocks, choices, clauses, foreign, gaps, keywords, lines, quantifiers, repair, signs, steps
 from golc.syntax.failure import Failure, Hint
+from golc.syntax.hints import blocks, choices, clauses, foreign, gaps, keywords, lines, quantifiers, signs, steps, trial
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
-    repair.doubled,
+    trial.doubled,
     *lines.HINTS,
     quantifiers.missing_dot,
     *clauses.HINTS,

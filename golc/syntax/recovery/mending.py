@@ -6,11 +6,11 @@ from dataclasses import dataclass, field, replace
 
 from golc.diagnostics import Diagnostic, Span
 from golc.edits import moved
-from golc.syntax.draft import Draft
 from golc.syntax.failure import Failure
 from golc.syntax.layout import CLOSING, OPENING, unclosed
-from golc.syntax.omissions import omissions
-from golc.syntax.reading import Reading
+from golc.syntax.recovery.draft import Draft
+from golc.syntax.recovery.omissions import omissions
+from golc.syntax.recovery.reading import Reading
 
 PATIENCE = 600_000
 """Characters that are read of a part, mistake by mistake, before the rest of it is left alone."""

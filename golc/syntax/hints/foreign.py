@@ -7,7 +7,7 @@ import unicodedata
 
 from golc.diagnostics import Code, Diagnostic, Edit, Fix, Span
 from golc.syntax.failure import Failure, Hint
-from golc.syntax.fixes import ends_line, instead, removal, sign_at
+from golc.syntax.hints.fixes import ends_line, instead, removal, sign_at
 from golc.syntax.terminals import words
 
 SIGNS = {

@@ -6,9 +6,8 @@ import re
 from collections.abc import Iterator
 
 from golc.diagnostics import Edit, Fix, Span
-from golc.syntax.layout import split
+from golc.syntax.layout import INDENT, split
 
-INDENT = 4
 _INDENTED = re.compile(r"^[ \t]+(?=[^\s#])", re.MULTILINE)
 _TABS = re.compile(r"^\t+(?=\S)", re.MULTILINE)
 

@@ -6,7 +6,7 @@ import re
 
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.failure import Failure, Hint
-from golc.syntax.fixes import instead, removal, sign_at
+from golc.syntax.hints.fixes import instead, removal, sign_at
 from golc.syntax.layout import CLOSING
 
 OPERATORS = frozenset({"CMP", "EQ", "IN", "PLUS", "MINUS", "TIMES", "IDIV", "MOD"})

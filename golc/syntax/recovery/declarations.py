@@ -9,12 +9,16 @@ from itertools import pairwise
 from golc.diagnostics import Code, Findings, Label, Source, Span
 from golc.syntax import tree as ast
 from golc.syntax.failure import Failure
-from golc.syntax.keywords import closest
+from golc.syntax.hints.keywords import CALL
 from golc.syntax.layout import split
-from golc.syntax.pieces import Piece, parse_piece
+from golc.syntax.recovery.pieces import Piece, parse_piece
+from golc.syntax.spelling import closest
 from golc.syntax.words import CLAUSES, DECLARATIONS, STATEMENTS
 
 _CONTENT = re.compile(r"^[ \t]*([A-Za-z]\w*|[^\s#])", re.MULTILINE)
+
+_EMPTY = re.compile(r"(?:\s|#[^\n]*)*")
+"""Nothing but blanks and comments."""
 
 
 def recover(source: Source, findings: Findings) -> ast.File | None:
@@ -126,18 +130,30 @@ def _merge(read: list[tuple[Piece, Findings]], findings: Findings) -> None:
 
 
 def _said_of_next(pieces: list[Piece]) -> set[int]:
-    """The findings that a line in the first column, which belongs below the one before it, has another word for: that
-    something is missing there, and the same of further lines below it."""
+    """Of the findings about a line in the first column, which belongs below the one before it, those that another one
+    says already: that something is missing there, and the same of further lines below it."""
     said = set()
     for piece, below in pairwise(pieces):
-        if not _is_lost(below) or re.search(r"\n[ \t]*\r?\n", piece.part.text):
+        if not (_is_lost(below) or _is_call(below)) or re.search(r"\n[ \t]*\r?\n", piece.part.text):
             continue
-        last, end = piece.mistakes[-1][0] if piece.mistakes else None, piece.part.start + len(piece.part.text.rstrip())
-        if last is not None and last.code is Code.MISSING and last.span.end == end:
-            said.add(id(last))
-        if _is_lost(piece) and piece.mistakes[1:] == []:
+        last = piece.mistakes[-1][0] if piece.mistakes else None
+        if (
+            last is not None
+            and last.code is Code.MISSING
+            and _EMPTY.fullmatch(last.span.source.text, last.span.end, piece.part.end)
+        ):
+            said.add(id(last if _is_lost(below) else below.mistakes[0][0]))
+        if _is_lost(piece) and _is_lost(below) and piece.mistakes[1:] == []:
             said.add(id(below.mistakes[0][0]))
     return said
+
+
+def _is_call(piece: Piece) -> bool:
+    """Whether a piece is no declaration, but may be a line of a block."""
+    first = piece.mistakes[0][0] if piece.mistakes else None
+    if first is None or first.span != _word_span(piece):
+        return False
+    return re.match(CALL + r"[ \t]*(#|$)", first.span.source.line(first.span.line)) is not None
 
 
 def _is_lost(piece: Piece) -> bool:

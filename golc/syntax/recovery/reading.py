@@ -8,11 +8,11 @@ from functools import cached_property
 from lark import Token, Tree
 
 from golc.diagnostics import Diagnostic, Span
-from golc.syntax.blocks import wrong_layout
-from golc.syntax.draft import Draft
 from golc.syntax.failure import Failure, read
-from golc.syntax.friendly import diagnose
+from golc.syntax.hints.blocks import wrong_layout
+from golc.syntax.hints.diagnosis import diagnose
 from golc.syntax.layout import LayoutError
+from golc.syntax.recovery.draft import Draft
 
 _CONTENT = re.compile(r"^[ \t]*[^\s#]", re.MULTILINE)
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic
-from golc.syntax.blocks import CLOSING_OF, not_closed
 from golc.syntax.failure import Failure, Hint
-from golc.syntax.fixes import insertion, sign_at
+from golc.syntax.hints.blocks import CLOSING_OF, not_closed
+from golc.syntax.hints.fixes import insertion, sign_at
+from golc.syntax.hints.quantifiers import QUANTIFIERS
+from golc.syntax.hints.trial import goes_on, one_token_off
 from golc.syntax.layout import CLOSING
-from golc.syntax.quantifiers import QUANTIFIERS
-from golc.syntax.repair import goes_on, repaired
 from golc.syntax.terminals import title, titles
 
 STARTS = frozenset({"NAME", "INT", "REAL", "STRING", "LPAR", "LBRACE", "TRUE", "FALSE", "NONE", *QUANTIFIERS})
@@ -183,6 +183,6 @@ HINTS: tuple[Hint, ...] = (
     missing_operator,
     two_calls,
     missing_token,
-    repaired,
+    one_token_off,
     anything,
 )

@@ -10,19 +10,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from golc.diagnostics import Edit, Span
-from golc.syntax.draft import Draft
 from golc.syntax.failure import LAYOUT, Failure, wants
-from golc.syntax.fixes import INDENT
-from golc.syntax.keywords import closest
-from golc.syntax.layout import CLOSING, OPENING, LayoutError
-from golc.syntax.reading import Reading
-from golc.syntax.words import DECLARATIONS, OTHER_NAMES
-
-STAND_IN = "unread"
-"""What stands for a part that is passed over, with underscores behind it if the file has this name."""
+from golc.syntax.layout import CLOSING, INDENT, OPENING, LayoutError
+from golc.syntax.recovery.draft import Draft
+from golc.syntax.recovery.reading import Reading
+from golc.syntax.spelling import closest
+from golc.syntax.tree import STAND_IN
+from golc.syntax.words import BRANCHES, DECLARATIONS, OTHER_NAMES
 
 HEADS = ("if {}", "on {}", "elif {}", "else", "or", "and", "over")
 """What a line with a block below it may be instead of what it is."""
+
+BRANCHED = (("OR", "or"), ("AND", "and"), ("_OVER", "over"))
+"""The words that begin a further branch, with their terminals."""
 
 _WORD = re.compile("[a-z]+")
 _HEAD = re.compile(r":\s*(#.*)?$")
@@ -44,6 +44,7 @@ def omissions(reading: Reading) -> Iterator[Omission]:
     if isinstance(failed, LayoutError):
         yield from _other_indentation(text, failed)
     elif failed is not None:
+        yield from _missing_indentation(text, failed)
         yield from _missing_blocks(text, failed)
         yield from _missing_branches(text, failed)
         yield from _needless_indentation(text, failed)
@@ -88,6 +89,21 @@ class _Text:
         line = self.text[start : self.line_end(start)]
         return line[: len(line) - len(line.lstrip(" "))]
 
+    def statement(self, start: int) -> list[int]:
+        """Where the lines of the statement begin that begins at an offset, with its branches; comments are left out."""
+        margin = self.indentation(start)
+        branch = re.compile(rf"{margin}(?:{'|'.join(BRANCHES)})\b.*:")
+        end = self.block_end(start, self.line_end(start))
+        while branch.match(self.text, end + 1):
+            end = self.block_end(end + 1, self.line_end(end + 1))
+        return [at for at in self.lines(start, end) if self.text[at:].lstrip(" ")[:1] != "#"]
+
+    def goes_on(self, start: int, word: str) -> bool:
+        """Whether, after the line that begins at an offset, one in its column begins with a word and a colon."""
+        place = start + len(self.indentation(start))
+        below = re.compile(f"^{self.indentation(start)}{word}[ \\t]*:", re.MULTILINE)
+        return below.search(self.text, self.line_end(place)) is not None
+
     def block_end(self, start: int, end: int) -> int:
         """The end of the block that lies below the line ``start..end``, which is ``end`` if there is none."""
         width, last = len(self.indentation(start)), end
@@ -121,6 +137,23 @@ def _needless_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
         yield Omission(text.span(start, first), tuple([Edit(text.span(at, at + width), "") for at in lines]))
 
 
+def _missing_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
+    """A line that is the block of the one above it, or belongs to it, but is not indented; with what lies below it, if
+    that has kept its distance."""
+    start = text.line_start(failed.place)
+    block = failed.accepts == {"_INDENT"} and ("interrupts" in failed.line_before) is (failed.bad == "on")
+    lost = failed.begins_line() and (block or str(failed.bad) in BRANCHES)
+    lost = lost or [str(token) for token in failed.line] == ["on"]
+    lost = lost or any(failed.accepts == {terminal} and text.goes_on(start, word) for terminal, word in BRANCHED)
+    if lost:
+        end = text.line_end(start)
+        width = len(text.indentation(start)) + INDENT
+        lines = text.statement(start)
+        whole = lines[1:] and len(text.indentation(lines[1])) == width and _HEAD.search(text.text[start:end])
+        places = lines if whole else [start]
+        yield Omission(text.span(start, start), tuple([Edit(text.span(at, at), " " * INDENT) for at in places]))
+
+
 def _missing_blocks(text: _Text, failed: Failure) -> Iterator[Omission]:
     if failed.accepts == {"_INDENT"} and failed.previous is not None:
         end = text.line_end(failed.previous.end_pos or 0)
@@ -132,7 +165,7 @@ def _missing_blocks(text: _Text, failed: Failure) -> Iterator[Omission]:
 
 def _missing_branches(text: _Text, failed: Failure) -> Iterator[Omission]:
     """``choose`` with one branch: another one in one of the columns that lines above have."""
-    for terminal, word in (("OR", "or"), ("AND", "and"), ("_OVER", "over")):
+    for terminal, word in BRANCHED:
         if failed.accepts == {terminal} and failed.previous is not None:
             end = text.line_end(failed.previous.end_pos or 0)
             columns = {len(text.indentation(line)) for line in text.lines(0, end)}

@@ -8,9 +8,9 @@ from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Fix, Label, Span
 from golc.syntax.failure import LAYOUT, Failure, Hint
-from golc.syntax.fixes import block_below, end_of_line, indentation, insertion, line_end, removal, spaces_for_tabs
-from golc.syntax.keywords import closest
+from golc.syntax.hints.fixes import block_below, end_of_line, indentation, insertion, line_end, removal, spaces_for_tabs
 from golc.syntax.layout import CLOSING, LayoutError
+from golc.syntax.spelling import closest
 from golc.syntax.words import BRANCHES, CLAUSES, STATEMENTS
 
 _HEADS = """

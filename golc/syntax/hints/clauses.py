@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic, Span
 from golc.syntax.failure import LAYOUT, Failure, Hint
-from golc.syntax.fixes import instead, removal, sign_at
-from golc.syntax.keywords import AFTER
-from golc.syntax.signs import OPERATORS
+from golc.syntax.hints.fixes import instead, removal, sign_at
+from golc.syntax.hints.keywords import AFTER
+from golc.syntax.hints.signs import OPERATORS
+from golc.syntax.spelling import closest
 
 WITHOUT_COLON = {
     "initially": "a formula",
@@ -191,11 +192,10 @@ def expected_actions(failure: Failure) -> Diagnostic | None:
         case ["expect", "actions"], "NAME":
             message = "the actions that are expected stand in brackets"
             return failure.finding(Code.SYNTAX, message, help="write `expect actions [a, b]`")
-        case ["expect", "action", "[", *_], _:
-            word = failure.line[1]
-            return failure.finding(
-                Code.SYNTAX, "`action` is no word here", failure.span(word), "did you mean `actions`?"
-            )
+        case ["expect", name, "[", *_], _ if name != "actions" and closest(name, ["actions"]) is not None:
+            span = failure.span(failure.line[1])
+            message, help = f"`{name}` is no word here", "did you mean `actions`?"
+            return failure.finding(Code.SYNTAX, message, span, help, fix=instead(span, "actions"))
     return None
 
 

@@ -10,10 +10,11 @@ from lark.parsers.lalr_parser_state import ParserState
 
 from golc.diagnostics import Code, Diagnostic, Fix, Span
 from golc.syntax.failure import LAYOUT, Failure, without_trees
-from golc.syntax.fixes import sign_at, without
+from golc.syntax.hints.fixes import sign_at, without
 from golc.syntax.layout import CLOSING, OPENING, LayoutError
 from golc.syntax.parser import parser
 from golc.syntax.terminals import TITLES, title, titles, word_of
+from golc.syntax.words import RESERVED
 
 SIGNS = ("COLON", "EQ", "ASSIGN", "COMMA", "RPAR", "RSQB", "RBRACE", "LPAR", "LBRACE", "DOT", "RANGE")
 """The signs that people forget, the likeliest first."""
@@ -35,7 +36,7 @@ def doubled(failure: Failure) -> Diagnostic | None:
     return _written_twice(failure, bad) if _goes_on(failure, None, failure.rest[len(bad) :]) else None
 
 
-def repaired(failure: Failure) -> Diagnostic | None:
+def one_token_off(failure: Failure) -> Diagnostic | None:
     """Something forgotten before the bad token, or the bad token one too many."""
     if failure.bad is None:
         return None
@@ -81,7 +82,9 @@ def _written(place: Span, forgotten: list[str]) -> Fix | None:
 
 def _forgotten(failure: Failure) -> list[str]:
     """The terminals of which one lets the line be read: a sign, or words."""
-    for sign in SIGNS:
+    # A colon would make a type of a word that begins a value, such as `false`.
+    value = "EQ" in failure.accepts and str(failure.bad) in RESERVED - {"set", "list"}
+    for sign in SIGNS[value:]:
         if sign in failure.accepts and goes_on(failure, sign):
             return [sign]
     words = sorted(terminal for terminal in failure.accepts if word_of(terminal) is not None)

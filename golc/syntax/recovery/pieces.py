@@ -10,7 +10,7 @@ from golc.syntax import tree as ast
 from golc.syntax.build import Builder, Placed, too_deep
 from golc.syntax.failure import Failure
 from golc.syntax.layout import split
-from golc.syntax.mending import mended
+from golc.syntax.recovery.mending import mended
 
 
 @dataclass

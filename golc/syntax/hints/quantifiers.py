@@ -8,8 +8,9 @@ from lark import Token
 
 from golc.diagnostics import Code, Diagnostic, Label
 from golc.syntax.failure import Failure
-from golc.syntax.fixes import sign_at
+from golc.syntax.hints.fixes import instead, sign_at
 from golc.syntax.layout import CLOSING, OPENING
+from golc.syntax.spelling import closest
 
 QUANTIFIERS = frozenset({"EXISTS", "FORALL", "COUNT", "SUM", "MIN", "MAX"})
 COMPARISONS = frozenset({"CMP", "EQ", "IN"})
@@ -26,6 +27,9 @@ def missing_dot(failure: Failure) -> Diagnostic | None:
         return failure.finding(
             Code.MISSING, f"the variable `{failure.previous}` has no type", failure.gap(), "write `x: type. …`"
         )
+    if failure.kind == "NAME" and "WHERE" in failure.accepts and closest(str(failure.bad), ["where"]) is not None:
+        help, fix = "did you mean `where`?", instead(failure.here(), "where")
+        return failure.finding(Code.SYNTAX, f"`{failure.bad}` is no word here", help=help, fix=fix)
     if "DOT" in failure.accepts and (failure.kind in ("COLON", "LPAR", "NOT", "NAME") or failure.rest[:1] == "|"):
         return failure.finding(
             Code.MISSING,

@@ -6,7 +6,7 @@ import re
 
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.failure import LAYOUT, Failure, Hint
-from golc.syntax.fixes import insertion
+from golc.syntax.hints.fixes import insertion
 from golc.syntax.words import CLAUSES, DECLARATIONS, STATEMENTS
 
 _BEGINS = re.compile(r'[a-z]+[ \t]+[A-Za-z"({\d-]')
