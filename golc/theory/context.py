@@ -205,6 +205,8 @@ class Context:
         """A name that is declared nowhere and is like no other: one finding, however often it is used."""
         if self.names.nameless:
             return  # it may be the name that is missing in a declaration
+        if code is Code.UNKNOWN_NAME and any(_begins_in(span, body) for body in self.names.headless):
+            return  # it may be a parameter
         finding = Diagnostic(code, message, span, Severity.ERROR, "not declared", help=help)
         space = "action" if code is Code.UNKNOWN_ACTION else "value"
         self._missing.setdefault((space, span.text or message), []).append(finding)

@@ -40,7 +40,7 @@ from golc.theory.theory import (
 )
 from golc.theory.types import Type
 from golc.theory.unfolding import check_unfolding
-from golc.theory.unread import brings_a_name, is_about, names_in
+from golc.theory.unread import brings_a_name, is_about, names_in, without_head
 
 T = TypeVar("T")
 
@@ -103,6 +103,7 @@ def _elaborate(
 ) -> BasicActionTheory | None:
     declared = declare(file, findings, frozenset(names_in(file.unread)))
     declared.names.nameless = any(map(brings_a_name, file.unread))
+    declared.names.headless = tuple(without_head(file))
     context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value, python)
     blocks = [node for node in file.declarations if isinstance(node, tree.Device)]
     context.device_names = tuple([device_name(node) for node in blocks])

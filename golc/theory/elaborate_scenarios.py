@@ -96,6 +96,8 @@ class _Scenario:
         entry = self.context.names.doings.get("control")
         if entry is not None and entry.kind is Kind.PROCEDURE and not entry.arity:
             return GroundCall("control", (), span=self.node.name.span)
+        if self.context.names.assumes("control") or self.context.names.nameless:
+            return None
         message = f"scenario `{self.node.name.text}` does not say what it runs, and there is no procedure `control`"
         help_ = f"add a line `{self.node.name.span.either('run …', 'run(…)')}`"
         self.context.error(Code.MISPLACED_CLAUSE, message, self.node.name.span, help=help_)

@@ -82,7 +82,8 @@ class Names:
     ``values`` holds consts, types, symbols, fluents, statics, externs, definitions, goals and invariants; ``doings``
     actions and procedures. ``assumed`` are names about which nothing can be said, because what may declare them could
     not be read: they are not reported as unknown. ``open`` says that any name may come from elsewhere (an import),
-    ``nameless`` that a declaration without a name, or an import without a file, may be what brings one.
+    ``nameless`` that a declaration without a name, or an import without a file, may be what brings one. In
+    ``headless`` declarations the parameters could not be read.
     """
 
     values: Space = field(default_factory=Space)
@@ -90,6 +91,7 @@ class Names:
     assumed: frozenset[str] = frozenset()
     open: bool = False
     nameless: bool = False
+    headless: tuple[Span, ...] = ()
     _suggested: dict[tuple[object, ...], Suggestion | None] = field(default_factory=dict)
 
     def assumes(self, name: str) -> bool:

@@ -6,12 +6,12 @@ import re
 from collections.abc import Iterable, Iterator
 
 from golc.diagnostics import Diagnostic, Span
-from golc.syntax.tree import STAND_IN
+from golc.syntax import tree
 from golc.syntax.words import RESERVED
 from golc.theory.context import WORD
 from golc.theory.suggest import closest
 
-_STAND_IN = re.compile(f"`({STAND_IN}_*)`")
+_STAND_IN = re.compile(f"`({tree.STAND_IN}_*)`")
 
 _NAMELESS = re.compile(
     r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal|let|for|pick|on some)"
@@ -24,6 +24,12 @@ def names_in(unread: Iterable[Span]) -> Iterator[str]:
     """The names that may be declared in what was not read: all words of it."""
     for span in unread:
         yield from WORD.findall(span.text)
+
+
+def without_head(file: tree.File) -> Iterator[Span]:
+    """The declarations of which the head, with their parameters, has been passed over."""
+    passed = {(span.source, span.start) for span in file.unread}
+    return (node.span for node in file.declarations if (node.span.source, node.span.start) in passed)
 
 
 def is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:

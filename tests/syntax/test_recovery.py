@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from golc.diagnostics import Code, Findings, Source
@@ -179,3 +181,13 @@ def test_a_file_of_another_language_is_one_mistake() -> None:
     text = "void go() { Wait(1); }\n\ntask watch() {\n    go();\n}\n\nint n;\n"
     message = "the domain line is missing, and nothing in the file begins as a declaration does"
     assert findings_of(text) == [(1, 1, Code.DOMAIN, message)]
+
+
+def test_what_is_passed_over_has_no_name_of_the_file() -> None:
+    text = "domain d\nfluent unread = true\nproc p:\n    test not @\n    test unread_ or @\n"
+    findings = Findings()
+    file = parse_file(Source("t", text), findings)
+
+    assert len(findings.diagnostics) == 2
+    assert file is not None
+    assert re.findall(r"'(unread_*)'", str(file.declarations[-1])) == ["unread__", "unread___"]

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 
-from golc.diagnostics import Diagnostic, Span
+from golc.diagnostics import Code, Diagnostic, Span
 from golc.edits import moved
 from golc.syntax.failure import Failure
-from golc.syntax.layout import CLOSING, OPENING, unclosed
+from golc.syntax.layout import CLOSING, OPENING, LayoutError, unclosed
 from golc.syntax.recovery.draft import Draft
 from golc.syntax.recovery.omissions import omissions
 from golc.syntax.recovery.reading import Reading
 
 PATIENCE = 600_000
 """Characters that are read of a part, mistake by mistake, before the rest of it is left alone."""
+
+VAGUE = frozenset({Code.SYNTAX, Code.MISSING})
+"""What is said where something does not fit: after it has been put right in one way, more may not fit in the line."""
 
 _OPENING_OF = dict(zip(CLOSING.values(), OPENING.values(), strict=True))
 
@@ -52,20 +55,36 @@ def mended(part: Span, start: str, end: str) -> Mended:
             result.unread.append(omitted)
             passed = Span(part.source, omitted.end, omitted.end).line
         elif fix is not None and not any(edit.text for edit in fix.edits):
-            # What a fix removes may have been meant as something, such as a declaration that others then miss.
-            result.unread.append(finding.span)
+            # What a fix removes may have been meant as something: a declaration that others miss, or an argument.
+            result.unread.append(_line(finding.span) if _is_inside(failed.error) else finding.span)
         if following is None:
             break
         result.reading = following
     return result
 
 
+def _line(span: Span) -> Span:
+    """The line in which a span begins."""
+    start = span.source.line_starts[span.line - 1]
+    return Span(span.source, start, start + len(span.source.line(span.line)))
+
+
+def _is_inside(error: Failure | LayoutError | None) -> bool:
+    """Whether a text fails inside brackets."""
+    return isinstance(error, Failure) and bool(error.brackets)
+
+
 def _follows(before: Mended, finding: Diagnostic) -> bool:
-    """Whether a mistake is only a consequence of one before it: it stands right behind that, or it is a bracket whose
-    opening one was passed over."""
+    """Whether a mistake is only a consequence of one before it: it stands right behind that, or in the same
+    line without saying what it is; it is a bracket whose opening one was passed over; or it is the next line that is
+    indented as wrongly."""
     if not before.mistakes:
         return False
+    if {finding.code, before.mistakes[-1][0].code} <= VAGUE and finding.span.line == before.mistakes[-1][0].span.line:
+        return True
     text, start, last = finding.span.source.text, finding.span.start, before.mistakes[-1][0].span.end
+    if finding.code is Code.INDENTATION and finding.message == before.mistakes[-1][0].message:
+        return before.unread[-1:] != [] and text.count("\n", before.unread[-1].end, start) <= 1
     if finding.span.text in _OPENING_OF:
         return _OPENING_OF[finding.span.text] in unclosed(text[before.reading.draft.part.start : start])
     return last <= start and not text[last:start].strip(" ")

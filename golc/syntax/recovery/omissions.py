@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from golc.diagnostics import Edit, Span
 from golc.syntax.failure import LAYOUT, Failure, wants
 from golc.syntax.layout import CLOSING, INDENT, OPENING, LayoutError
+from golc.syntax.recovery.draft import Draft
 from golc.syntax.recovery.reading import Reading
 from golc.syntax.spelling import meant_declaration
 from golc.syntax.terminals import BRANCHING
@@ -37,10 +38,10 @@ class Omission:
 
 def omissions(reading: Reading) -> Iterator[Omission]:
     """What could be passed over so that a reading comes further, the smallest first."""
-    failed, text = reading.error, _Text(reading.draft.whole)
+    failed, text = reading.error, _Text(reading.draft)
     if isinstance(failed, LayoutError):
         yield from _other_indentation(text, failed)
-    elif failed is not None:
+    elif failed is not None and not _is_no_declaration(text, failed):
         yield from _missing_indentation(text, failed)
         yield from _missing_blocks(text, failed)
         yield from _missing_branches(text, failed)
@@ -49,14 +50,19 @@ def omissions(reading: Reading) -> Iterator[Omission]:
         yield from _lines(text, failed)
 
 
+def _is_no_declaration(text: _Text, failed: Failure) -> bool:
+    """Whether nobody knows what kind of declaration a text is that fails in its first line."""
+    return failed.start == "declaration" and failed.place <= text.line_end(0) and _kind(text.text) is None
+
+
 class _Text:
     """The text of a draft by its offsets."""
 
-    def __init__(self, whole: Span) -> None:
-        self.whole = whole
-        self.text = whole.text
+    def __init__(self, draft: Draft) -> None:
+        self.whole = draft.whole
+        self.text = draft.whole.text
         self.name = STAND_IN
-        while self.name in self.text:
+        while self.name in self.text or self.name in draft.part.source.text:
             self.name += "_"
 
     def omission(self, start: int, end: int, text: str) -> Omission:
@@ -120,8 +126,11 @@ def _other_indentation(text: _Text, error: LayoutError) -> Iterator[Omission]:
     start = text.line_start(error.start)
     width, line = len(text.text[start : error.end].expandtabs(4)), text.span(start, text.line_end(error.end))
     deeper = [error.levels[-1] + INDENT] if error.kind == "tab" else []
-    for level in sorted([*error.levels, *deeper], key=lambda level: (abs(level - width), -level)):
+    levels = sorted([*error.levels, *deeper], key=lambda level: (abs(level - width), -level))
+    for level in levels:
         yield Omission(line, (Edit(text.span(start, error.end), " " * level),))
+    for level in levels:
+        yield from _instead(text, start, text.line_end(error.end), " " * level)
 
 
 def _needless_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
@@ -140,7 +149,7 @@ def _missing_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
     that has kept its distance."""
     start = text.line_start(failed.place)
     block = failed.accepts == {"_INDENT"} and ("interrupts" in failed.line_before) is (failed.bad == "on")
-    lost = failed.begins_line() and (block or str(failed.bad) in BRANCHES)
+    lost = failed.begins_line() and (block if "_INDENT" in failed.accepts else str(failed.bad) in BRANCHES)
     lost = lost or [str(token) for token in failed.line] == ["on"]
     lost = lost or any(
         failed.accepts == {terminal} and text.goes_on(start, word) for terminal, word in BRANCHING.items()
@@ -184,19 +193,22 @@ def _expressions(text: _Text, failed: Failure) -> Iterator[Omission]:
 
 
 def _beginnings(failed: Failure) -> Iterator[int]:
-    words = failed.line if failed.bad is None or failed.kind in LAYOUT else [*failed.line, failed.bad]
+    read = list(zip(failed.line, failed.stacks, strict=False))
+    if failed.bad is not None and failed.kind not in LAYOUT and len(read) == len(failed.line):
+        read.append((failed.bad, failed.stack))
     depth = 0
-    for word, stack in zip(words, failed.stacks, strict=False):
+    for word, stack in read:
         depth -= word.type in CLOSING
-        if depth == 0 and wants(failed.start, stack, "TRUE"):
+        if depth == 0 and word.type not in CLOSING and wants(failed.start, stack, "TRUE"):
             yield word.start_pos or 0
         depth += word.type in OPENING
 
 
 def _ends(text: _Text, failed: Failure) -> Iterator[int]:
     depth, place = len(failed.brackets), failed.place
-    if depth and (first := text.line_end(failed.brackets[0].start_pos or 0)) < place:
-        yield first
+    opened = failed.brackets[0].start_pos or 0 if depth else place
+    if (first := text.line_end(opened)) < place:
+        yield text.block_end(text.line_start(opened), first)
     for found in _BRACKET.finditer(text.text, place) if depth else ():
         depth += (found[1] is not None) - (found[2] is not None)
         if depth == 0:
@@ -211,22 +223,26 @@ def _lines(text: _Text, failed: Failure) -> Iterator[Omission]:
     """The line, as a statement, a condition or a clause, with its block or without."""
     first = failed.place if failed.begins_line() or not failed.line else failed.line[0].start_pos or 0
     start = text.line_start(first)
-    indentation, name = text.indentation(start), text.name
     for place in dict.fromkeys((first, failed.place)):
         end = text.line_end(place)
         if not text.text[start:end].strip():
             continue
-        below = text.block_end(start, end)
         if start == 0:
             kind = _kind(text.text)
-            if below > end and kind is not None:
-                yield text.omission(0, end, f"{kind} {name}:")
+            if kind is not None and text.block_end(0, end) > end:
+                yield text.omission(0, end, f"{kind} {text.name}:")
             continue
-        if below > end and _HEAD.search(text.text[start:end]):
-            for head in (*_heads(text.text[start:end], name), *(head.format(name) for head in HEADS)):
-                yield text.omission(start, end, f"{indentation}{head}:")
-        for line in (name, "", f"poss {name}", f"expect {name}", "otherwise unchanged"):
-            yield text.omission(start, below, indentation + line)
+        yield from _instead(text, start, end, text.indentation(start))
+
+
+def _instead(text: _Text, start: int, end: int, indentation: str) -> Iterator[Omission]:
+    """Something else for the line ``start..end``: a head for the block below it, or a line for both."""
+    name, below = text.name, text.block_end(start, end)
+    if below > end and _HEAD.search(text.text[start:end]):
+        for head in (*_heads(text, start, end), *(head.format(name) for head in HEADS)):
+            yield text.omission(start, end, f"{indentation}{head}:")
+    for line in (name, "", f"poss {name}", f"expect {name}", "otherwise unchanged"):
+        yield text.omission(start, below, indentation + line)
 
 
 def _kind(text: str) -> str | None:
@@ -236,8 +252,14 @@ def _kind(text: str) -> str | None:
     return word if word in DECLARATIONS else meant_declaration(word)
 
 
-def _heads(line: str, name: str) -> Iterator[str]:
-    """A line reduced to its first word, and to that and a condition."""
-    word = _WORD.match(line.strip())
-    if word is not None:
-        yield from (word[0], f"{word[0]} {name}")
+def _heads(text: _Text, start: int, end: int) -> Iterator[str]:
+    """The first word of a line, with a condition or not; what the block below it, or a branch in its column, belongs
+    to."""
+    first = _WORD.match(text.text[start:end].strip())
+    if first is not None:
+        yield from (first[0], f"{first[0]} {text.name}")
+    if text.text[end:].split(maxsplit=1)[:1] == ["on"]:
+        yield "interrupts"
+    for word, head in BRANCHES.items():
+        if word in BRANCHING.values() and text.goes_on(start, word):
+            yield head
