@@ -13,13 +13,14 @@ from golc.embed.errors import meaningless
 from golc.embed.names import golc_name, new_name
 from golc.embed.reading.bodies import Bodies
 from golc.syntax import tree
+from golc.theory.statements import Strategy
 
 _BRANCHING: Mapping[words.Word, Any] = {
     words.choose: tree.Choose,
     words.together: tree.Together,
     words.prefer: tree.Prefer,
 }
-MODES = ("first", "shortest", "cheapest")
+MODES = tuple(strategy.value for strategy in Strategy)
 
 
 class Blocks(Bodies):
