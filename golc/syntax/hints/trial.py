@@ -14,6 +14,7 @@ from golc.syntax.hints.fixes import sign_at, without
 from golc.syntax.layout import CLOSING, OPENING, LayoutError
 from golc.syntax.parser import parser
 from golc.syntax.terminals import TITLES, title, titles, word_of
+from golc.syntax.words import RESERVED
 
 SIGNS = ("COLON", "EQ", "ASSIGN", "COMMA", "RPAR", "RSQB", "RBRACE", "LPAR", "LBRACE", "DOT", "RANGE")
 """The signs that people forget, the likeliest first."""
@@ -67,7 +68,9 @@ def _written(place: Span, forgotten: list[str]) -> Fix | None:
 
 def _forgotten(failure: Failure) -> list[str]:
     """The terminals of which one lets the line be read: a sign, or words."""
-    for sign in SIGNS:
+    # A colon would make a type of a word that begins a value, such as `false`.
+    value = "EQ" in failure.accepts and str(failure.bad) in RESERVED - {"set", "list"}
+    for sign in SIGNS[value:]:
         if sign in failure.accepts and goes_on(failure, sign):
             return [sign]
     words = sorted(terminal for terminal in failure.accepts if word_of(terminal) is not None)

@@ -52,6 +52,7 @@ def mended(part: Span, start: str, end: str) -> Mended:
             result.unread.append(omitted)
             passed = Span(part.source, omitted.end, omitted.end).line
         elif fix is not None and not any(edit.text for edit in fix.edits):
+            # What a fix removes may have been meant as something, such as a declaration that others then miss.
             result.unread.append(finding.span)
         if following is None:
             break
