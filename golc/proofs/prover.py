@@ -66,7 +66,7 @@ class Prover:
         functions = [*asked, *self._rigid.assumed()]
         if not functions or not answer.certain:
             return answer
-        found = self._uniform.witness(question, self._values(question, answer))
+        found = self._uniform.witness(question, self._values(answer))
         if found is None:
             return Undecided(str(NeedsPythonError(functions[0])), function=functions[0])
         domains = self.asking.domains_of(question)
@@ -74,9 +74,9 @@ class Prover:
         try:
             return self._fixed(question, domains, found.values, matter)
         except NeedsPythonError:  # it is the solver that has shown it
-            return self.asking.witness(question, domains, found.values, None)
+            return self.asking.witness(domains, found.values, None)
 
-    def _values(self, question: Question, witness: Witness) -> dict[int, Value]:
+    def _values(self, witness: Witness) -> dict[int, Value]:
         """The values of a witness by their slots."""
         slots = self.asking.layout.slots
         named = {slots[name]: value for name, value in witness.fluents.items()}
@@ -165,7 +165,7 @@ class Prover:
                 if leaf.is_witness:
                     return self._witness(question, domains, [(case, leaf)], small)
         except NeedsPythonError:  # which is then left to the solver, whatever the function is
-            return self.asking.witness(question, domains, values, None)
+            return self.asking.witness(domains, values, None)
         except NotDecidedError as error:
             return replace(why, reason=f"{why.reason}; {error}")
         return replace(why, reason=f"{why.reason}; what the solver says is not confirmed")
@@ -199,7 +199,7 @@ class Prover:
         kept = {*case.cells} if matter is None else matter
         shown = {slot: value for slot, value in values.items() if slot >= first or slot in kept}
         error = verdict if isinstance(verdict, ProgramError) else None
-        return self.asking.witness(question, domains, shown, error)
+        return self.asking.witness(domains, shown, error)
 
 
 def _worth(case: Case, domains: Sequence[Domain]) -> tuple[bool, int, int]:
