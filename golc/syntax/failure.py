@@ -74,6 +74,11 @@ class Failure:
         return words[::-1]
 
     @cached_property
+    def words(self) -> list[str]:
+        """What has been read of the current line, as text."""
+        return [str(token) for token in self.line]
+
+    @cached_property
     def line_before(self) -> list[Token]:
         """The words and signs of the last line read that has any, if the current one has none."""
         tokens = list(self.tokens)

@@ -97,8 +97,6 @@ class Context:
     def names(self) -> Names:
         return self.declared.names
 
-    # ---- declarations, each resolved once
-
     def signature(self, entry: Entry) -> Signature | None:
         """Of a fluent, static, definition, action or procedure."""
         resolved = self._resolve("signature", entry)
@@ -159,8 +157,6 @@ class Context:
             f"needs `{circle[1].name}`" if len(circle) > 1 else "its value needs its value",
             labels=tuple(labels[:5]),
         )
-
-    # ---- findings
 
     def error(
         self,

@@ -133,9 +133,6 @@ def _quantity(context: Context, node: tree.Expr) -> Fraction | None:
     return Fraction(found.value) if found is not None and isinstance(found.value, int | Fraction) else None
 
 
-# ---- bindings
-
-
 def _binding(
     context: Context,
     device: tree.Device,

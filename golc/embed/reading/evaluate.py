@@ -10,13 +10,13 @@ from golc.diagnostics import Code, Label, UserError
 from golc.embed.asked import translating
 from golc.embed.cures import cure
 from golc.embed.errors import meaningless, refused
-from golc.embed.names import golc_name
 from golc.embed.places import code_span, innermost, source_of
 from golc.embed.reading.functions import Function
 from golc.embed.terms import Term, variable
 from golc.embed.types import TypeHandle, TypeObject, enum, interval, is_built_in, optional, symbols, symbols_of, union
 from golc.embed.values import is_unsettled
 from golc.embed.words import Value, Word
+from golc.syntax.python_names import golc_name
 from golc.theory.python_file import failure
 from golc.theory.suggest import did_you_mean
 

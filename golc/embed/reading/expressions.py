@@ -10,7 +10,6 @@ from typing import Any, Literal
 from golc.diagnostics import Code, Span
 from golc.embed import words
 from golc.embed.errors import Refused, meaningless, refused
-from golc.embed.names import golc_name
 from golc.embed.reading.binders import chain
 from golc.embed.reading.calls import Calls
 from golc.embed.reading.evaluate import NOT_PYTHON
@@ -26,6 +25,7 @@ from golc.embed.types import (
 from golc.embed.values import expr
 from golc.embed.words import Value, Word
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 
 _ARITHMETIC: Mapping[type[ast.operator], Any] = {
     ast.Add: "+",
