@@ -11,7 +11,7 @@ from typing import Any
 from golc.diagnostics import ProgramError
 from golc.proofs.asking import Asking, Leaf
 from golc.proofs.cases import MOST_LOOKS, Budget, Case, explore, sample
-from golc.proofs.domains import Domain, any_of
+from golc.proofs.domains import Domain
 from golc.proofs.questions import Question, Undecided, Witness
 from golc.proofs.rigid import Rigid
 from golc.proofs.smallest import rank, reduced, smallest
@@ -86,24 +86,7 @@ class Prover:
     def _uniform(self) -> Uniform:
         names = self.asking.layout.ground_fluents
         slots = [slot for slot, (name, _) in enumerate(names) if name in self._rigid.fluents]
-        return Uniform(self.asking, frozenset(slots), self._refuted)
-
-    def _refuted(self, question: Question, values: Mapping[int, Value]) -> Mapping[int, Value] | None:
-        """Values with which what a question asks is not so, if a solver finds some that include the given ones."""
-        try:
-            from golc.proofs.solver import refuted
-        except ImportError:
-            raise NotDecidedError("there is no solver") from None
-        names, first = self.asking.layout.ground_fluents, self.asking.layout.size
-        domains = self.asking.domains_of(question)
-        fluents = {names[slot]: value for slot, value in values.items() if slot < first}
-        variables = [values.get(slot, any_of(domains[slot])) for slot in range(first, len(domains))]
-        found = refuted(self._rigid.theory, question, fluents, variables)
-        return None if found is None else self._slots(found)
-
-    def _slots(self, fluents: Mapping[tuple[str, tuple[Value, ...]], Value]) -> dict[int, Value]:
-        """The values of ground fluents by their slots."""
-        return {self.asking.layout.places[name].slot(args): value for (name, args), value in fluents.items()}
+        return Uniform(self.asking, frozenset(slots))
 
     def _answer(self, question: Question, small: bool) -> Witness | Undecided | None:
         answer = self._explored(question, small)
@@ -175,7 +158,7 @@ class Prover:
             return replace(why, reason=f"{why.reason}; {error}")
         if found is None:
             return None
-        values = self._slots(found[0]) | dict(enumerate(found[1], start=self.asking.layout.size))
+        values = self.asking.layout.placed(found[0]) | dict(enumerate(found[1], start=self.asking.layout.size))
         fixed = [(values[slot],) if slot in values else of for slot, of in enumerate(domains)]
         try:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
