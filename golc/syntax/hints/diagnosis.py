@@ -20,10 +20,12 @@ from golc.syntax.hints import (
     quantifiers,
     signs,
     steps,
+    trial,
 )
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
+    trial.doubled,
     *lines.HINTS,
     quantifiers.missing_dot,
     *clauses.HINTS,

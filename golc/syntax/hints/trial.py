@@ -26,6 +26,16 @@ CERTAIN = frozenset({"COLON", "EQ", "ASSIGN", "COMMA", "BY", "FROM", "WHERE"})
 """What can stand nowhere else: of a bracket nobody knows where it was to be."""
 
 
+def doubled(failure: Failure) -> Diagnostic | None:
+    """A word of the language right behind itself, perhaps read as a name: seldom is something missing between them."""
+    bad, line = failure.bad, failure.line
+    if len(line) > 1 and line[-1].type == "NAME" != line[-2].type and str(line[-1]) == str(line[-2]):
+        return _written_twice(failure, line[-1])
+    if bad is None or str(failure.previous) != str(bad) or word_of(bad.type) is None or "_NL" in failure.accepts:
+        return None
+    return _written_twice(failure, bad) if _goes_on(failure, None, failure.rest[len(bad) :]) else None
+
+
 def one_token_off(failure: Failure) -> Diagnostic | None:
     """Something forgotten before the bad token, or the bad token one too many."""
     if failure.bad is None:
@@ -33,8 +43,7 @@ def one_token_off(failure: Failure) -> Diagnostic | None:
     behind = failure.rest[len(failure.bad) :]
     twice = _twice(failure, behind)
     if twice is not None:
-        fix = Fix(f"remove one `{twice}`", (without(failure.span(twice)),))
-        return failure.finding(Code.SYNTAX, f"`{twice}` is written twice", failure.span(twice), "remove one", fix=fix)
+        return _written_twice(failure, twice)
     forgotten = _forgotten(failure)
     if forgotten:
         what = titles(forgotten) or "a word"
@@ -47,6 +56,11 @@ def one_token_off(failure: Failure) -> Diagnostic | None:
     if failure.kind not in LAYOUT | {"$END"} and _goes_on(failure, None, behind):
         return failure.finding(Code.SYNTAX, f"`{failure.bad}` is too much here", help="remove it")
     return None
+
+
+def _written_twice(failure: Failure, twice: Token) -> Diagnostic:
+    fix = Fix(f"remove one `{twice}`", (without(failure.span(twice)),))
+    return failure.finding(Code.SYNTAX, f"`{twice}` is written twice", failure.span(twice), "remove one", fix=fix)
 
 
 def _twice(failure: Failure, behind: str) -> Token | None:
@@ -90,7 +104,7 @@ def _goes_on(failure: Failure, inserted: str | None, rest: str) -> bool:
     """Whether, after one more terminal or none, the parser can read the rest of a line, with its end if it has one."""
     frontend: Any = parser().parser
     thread = LexerThread.from_text(frontend.lexer, rest.strip())
-    state: Any = ParserState(without_trees(failure.start), thread, list(failure.stacks[-1]), [])
+    state: Any = ParserState(without_trees(failure.start), thread, list(failure.stack), [])
     depth = len(failure.brackets) + _depth(inserted)
     lex: Any = thread.lex
     try:

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from golc.diagnostics import Edit, Span
 from golc.syntax.failure import LAYOUT, Failure, wants
 from golc.syntax.layout import CLOSING, INDENT, OPENING, LayoutError
+from golc.syntax.recovery.draft import Draft
 from golc.syntax.recovery.reading import Reading
 from golc.syntax.spelling import meant_declaration
 from golc.syntax.terminals import BRANCHING
@@ -37,7 +38,7 @@ class Omission:
 
 def omissions(reading: Reading) -> Iterator[Omission]:
     """What could be passed over so that a reading comes further, the smallest first."""
-    failed, text = reading.error, _Text(reading.draft.whole)
+    failed, text = reading.error, _Text(reading.draft)
     if isinstance(failed, LayoutError):
         yield from _other_indentation(text, failed)
     elif failed is not None:
@@ -52,16 +53,16 @@ def omissions(reading: Reading) -> Iterator[Omission]:
 class _Text:
     """The text of a draft by its offsets."""
 
-    def __init__(self, whole: Span) -> None:
-        self.whole = whole
-        self.text = whole.text
+    def __init__(self, draft: Draft) -> None:
+        self.whole = draft.whole
+        self.text = draft.whole.text
         self.name = STAND_IN
-        while self.name in self.text:
+        while self.name in self.text or self.name in draft.part.source.text:
             self.name += "_"
 
     def omission(self, start: int, end: int, text: str) -> Omission:
-        """Something else is written for what stands between two offsets."""
-        span = self.span(start, end)
+        """Something else is written for what stands between two offsets, but for a carriage return at its end."""
+        span = self.span(start, end - self.text[start:end].endswith("\r"))
         return Omission(span, (Edit(span, text),))
 
     def span(self, start: int, end: int) -> Span:
@@ -184,9 +185,11 @@ def _expressions(text: _Text, failed: Failure) -> Iterator[Omission]:
 
 
 def _beginnings(failed: Failure) -> Iterator[int]:
-    words = failed.line if failed.bad is None or failed.kind in LAYOUT else [*failed.line, failed.bad]
+    read = list(zip(failed.line, failed.stacks, strict=False))
+    if failed.bad is not None and failed.kind not in LAYOUT and len(read) == len(failed.line):
+        read.append((failed.bad, failed.stack))
     depth = 0
-    for word, stack in zip(words, failed.stacks, strict=False):
+    for word, stack in read:
         depth -= word.type in CLOSING
         if depth == 0 and wants(failed.start, stack, "TRUE"):
             yield word.start_pos or 0
