@@ -135,7 +135,7 @@ def _elaborate(
     if not _has_circles(context, theory):
         check_unfolding(context, theory)
     check_initially(context, theory)
-    context.finish()
+    context.complaints.finish()
     return None if context.gaps else theory
 
 

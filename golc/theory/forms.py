@@ -97,9 +97,8 @@ def sign(text: str, place: Span) -> str:
 def joined_tightly(place: Span) -> bool:
     """Whether Python's ``&``, ``|`` or ``~`` stands beside a term: they bind more tightly than comparisons."""
     text = place.source.text
-    return place.source.python and bool(
-        re.search(r"[&|~]\s*\Z", text[: place.start]) or re.match(r"\s*[&|]", text[place.end :])
-    )
+    before, behind = text[: place.start].rstrip(), text[place.end :].lstrip()
+    return place.source.python and (before.endswith(("&", "|", "~")) or behind.startswith(("&", "|")))
 
 
 def is_call(name: Span) -> bool:

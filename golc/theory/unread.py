@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 from golc.diagnostics import Diagnostic, Span
 from golc.syntax import tree
 from golc.syntax.words import RESERVED
-from golc.theory.context import WORD
+from golc.theory.complaints import WORD
 from golc.theory.suggest import closest
 
 _STAND_IN = re.compile(f"`({tree.STAND_IN}_*)`")

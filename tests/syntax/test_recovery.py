@@ -191,3 +191,16 @@ def test_what_is_passed_over_has_no_name_of_the_file() -> None:
     assert len(findings.diagnostics) == 2
     assert file is not None
     assert re.findall(r"'(unread_*)'", str(file.declarations[-1])) == ["unread__", "unread___"]
+
+
+def test_nothing_is_said_of_what_stands_for_what_is_passed_over() -> None:
+    assert findings_of("domain d\nscenario quiet:\n    test poss(turn and served\ndevice:\n") == [
+        (3, 5, Code.SYNTAX, "`test` does not fit here")
+    ]
+
+
+def test_a_carriage_return_is_not_passed_over() -> None:
+    file = parse_file(Source("t", "domain d\r\nscenario s:\r\n    test a\r\n    expect b\r\n"), Findings())
+
+    assert file is not None
+    assert [span.text for span in file.unread] == ["    test a"]

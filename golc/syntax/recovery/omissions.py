@@ -66,8 +66,8 @@ class _Text:
             self.name += "_"
 
     def omission(self, start: int, end: int, text: str) -> Omission:
-        """Something else is written for what stands between two offsets."""
-        span = self.span(start, end)
+        """Something else is written for what stands between two offsets, but for a carriage return at its end."""
+        span = self.span(start, end - self.text[start:end].endswith("\r"))
         return Omission(span, (Edit(span, text),))
 
     def span(self, start: int, end: int) -> Span:
