@@ -260,6 +260,7 @@ def _heads(text: _Text, start: int, end: int) -> Iterator[str]:
         yield from (first[0], f"{first[0]} {text.name}")
     if text.text[end:].split(maxsplit=1)[:1] == ["on"]:
         yield "interrupts"
+    following = text.text[text.block_end(start, end) :].split("\n", 2)[1:2]
     for word, head in BRANCHES.items():
-        if word in BRANCHING.values() and text.goes_on(start, word):
+        if word in BRANCHING.values() and re.match(rf"{text.indentation(start)}{word}\b", "".join(following)):
             yield head
