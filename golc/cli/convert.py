@@ -76,6 +76,8 @@ def _as_golc(file: str, folder: Path, findings: Findings) -> tuple[Source, str]:
     written = read_theory(file)
     findings.diagnostics += written.findings.diagnostics
     _refuse_nested_messages(written.file)
+    if findings.has_errors:
+        return written.sources[0], ""
     text = formatted(Source(f"<{file} as a domain>", unparse(moved(written.file, folder))), findings)
     return written.sources[0], text or ""
 
