@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 from golc.checks import check
-from golc.checks.anyway import check_devices_anyway
 from golc.checks.bricks import review_bricks
 from golc.checks.hosts import review_hosts
+from golc.checks.outlines import check_outline
 from golc.checks.proofs import prove
 from golc.diagnostics import Code, Diagnostic, Findings, Severity, Source, UserError
 from golc.imports import Joined, Reading, join
@@ -18,7 +18,7 @@ from golc.proofs.reachable import Scope
 from golc.syntax import tree
 from golc.syntax.parse import parse_file
 from golc.syntax.text import read_domain
-from golc.theory.elaborate import outlined
+from golc.theory.elaborate import outline
 from golc.theory.recursion import deep_recursion
 from golc.theory.theory import BasicActionTheory
 
@@ -138,9 +138,9 @@ def examine_file(
     so far, to which the rest is added; ``constants`` and ``trust`` as for ``examine``.
     """
     source, constants = sources[0], constants or {}
-    theory = outlined(file, source, findings, constants, trust)
+    theory = outline(file, source, findings, constants, trust)
     if theory is not None and findings.has_errors:
-        check_devices_anyway(theory, findings)
+        check_outline(theory, findings)
     elif theory is not None:
         with deep_recursion():
             for diagnostic in check(theory, file):

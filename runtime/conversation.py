@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
@@ -14,7 +13,7 @@ from golc.runtime.loop.asking import ALL, REMEDIES
 from golc.runtime.loop.intake import Intake
 from golc.runtime.observers.trace import BOLD, DIM, MARGIN, RED, Style
 from golc.runtime.settings import Settings
-from golc.runtime.sources.exogenous import COMMANDS, from_operator
+from golc.runtime.sources.exogenous import COMMANDS, from_operator, standard_input
 from golc.situation.summary import summary
 from golc.theory.ground import one_of, read_value
 from golc.theory.order import arranged
@@ -53,7 +52,7 @@ class Conversation:
     """
 
     def __init__(self, theory: BasicActionTheory, settings: Settings, voice: Voice) -> None:
-        self.stdin = _descriptor() if voice.stdin else None
+        self.stdin = standard_input() if voice.stdin else None
         self.interactive = self.stdin is not None and os.isatty(self.stdin)
         answered = self.stdin is not None or voice.ask is not None
         self.desk = Desk(self._ask, self.interactive, answered, lambda line: plausible(line.strip(), theory, settings))
@@ -126,11 +125,3 @@ def plausible(word: str, theory: BasicActionTheory, settings: Settings) -> bool:
     senses = [term.type for action in theory.actions.values() for term in action.senses] if asked else []
     where = Span(Source("<stdin>", word), 0, len(word))
     return any(read_value(theory, type_, where, Findings()) for type_ in senses)
-
-
-def _descriptor() -> int | None:
-    """Standard input, if there is one."""
-    try:
-        return sys.stdin.fileno()
-    except (AttributeError, OSError, ValueError):
-        return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from functools import cached_property, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from golc.api import acting
 from golc.api.acting import Doing
@@ -31,6 +31,10 @@ if TYPE_CHECKING:
 
 ASKED = 1000
 """How many texts of formulas and terms are kept compiled."""
+
+
+StrategyName: TypeAlias = Literal["first", "shortest", "cheapest"]
+"""A ``Strategy`` by its name."""
 
 
 class NoPlanError(GolcError):
@@ -190,7 +194,7 @@ class Theory(Declared):
         *,
         goal: str | None = None,
         state: State | None = None,
-        strategy: Literal["first", "shortest", "cheapest"] = "first",
+        strategy: StrategyName = "first",
         conformant: bool = False,
         steps: int | None = None,
         nodes: int | None = None,
@@ -230,7 +234,7 @@ class Theory(Declared):
         *,
         goal: str | None = None,
         state: State | None = None,
-        strategy: Literal["first", "shortest", "cheapest"] = "first",
+        strategy: StrategyName = "first",
         every: bool = False,
         conformant: bool = False,
         steps: int | None = None,

@@ -42,9 +42,6 @@ def review_bricks(theory: BasicActionTheory, findings: Findings) -> None:
                 _review(theory, actions, findings)
 
 
-# ---- numbers and messages
-
-
 def check_ranges(bricks: list[ActionMap], findings: Findings) -> None:
     """The messages of a brick lie in 1..255 and apart from each other and from those of every other brick."""
     taken: list[_Messages] = []
@@ -135,9 +132,6 @@ def _fewer_messages(theory: BasicActionTheory, actions: ActionMap) -> str | None
     return None
 
 
-# ---- tasks and what tells their end
-
-
 def _check_ends(theory: BasicActionTheory, actions: ActionMap, findings: Findings) -> None:
     """A task goes on when its action is done; something has to say that it has ended."""
     reports = any(entry.exogenous for entry in actions.entries)
@@ -176,9 +170,6 @@ def _concerns(theory: BasicActionTheory, event: Action, fluents: set[str]) -> bo
         value = effect.value.among if isinstance(effect.value, Choice) else effect.value
         terms += [term for term in (effect.where, effect.condition, value) if term is not None]
     return not fluents.isdisjoint(fluents_read(theory, terms))
-
-
-# ---- behaviours and their files
 
 
 def _check_behaviour_names(actions: ActionMap, findings: Findings) -> None:

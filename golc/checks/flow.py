@@ -143,8 +143,6 @@ class Flow:
             case _:
                 return place
 
-    # ---- single statements
-
     def _perform(self, statement: st.Perform, place: Place) -> Place:
         action = self._theory.actions[statement.action]
         possible = place.asked(PossTerm(statement.action, statement.args, type=BOOL, span=statement.span))
@@ -244,8 +242,6 @@ class Flow:
                 self._obligations.warning(Code.CONSTANT, f"{what} is {always} here", condition.span, never)
                 return value
         return None
-
-    # ---- what is known
 
     def _never(self, place: Place, steps: tuple[Step, ...], what: str, span: Span) -> bool:
         return self._obligations.is_impossible(Question(place.variables, steps), what, span)

@@ -134,9 +134,6 @@ def _mentioned(node: tree.Node) -> set[str]:
     return {part.name.text for part in descendants(node) if isinstance(part, tree.Apply)}
 
 
-# ---- devices
-
-
 def _bound_twice(theory: BasicActionTheory, findings: Findings) -> None:
     """An instance of a primitive action has one device; several may report an exogenous action, each once."""
     seen: dict[str, list[tuple[Device, Binding]]] = {}

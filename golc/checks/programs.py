@@ -90,9 +90,6 @@ def steps_always(theory: BasicActionTheory, statement: Statement) -> bool:
                 return False
 
 
-# ---- implications that show in the form
-
-
 def _implies(lower: Term, higher: Term) -> bool:
     """Whether one formula follows from another because it is one of its parts (or the other way round)."""
     if not (_small(lower) and _small(higher)):

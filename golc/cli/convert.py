@@ -73,13 +73,13 @@ def _as_golc(file: str, folder: Path, findings: Findings) -> tuple[Source, str]:
     from golc.syntax.format import formatted
     from golc.syntax.unparse import unparse
 
-    written = read_theory(file)
-    findings.diagnostics += written.findings.diagnostics
-    _refuse_nested_messages(written.file)
+    read = read_theory(file)
+    findings.diagnostics += read.findings.diagnostics
+    _refuse_nested_messages(read.file)
     if findings.has_errors:
-        return written.sources[0], ""
-    text = formatted(Source(f"<{file} as a domain>", unparse(moved(written.file, folder))), findings)
-    return written.sources[0], text or ""
+        return read.sources[0], ""
+    text = formatted(Source(f"<{file} as a domain>", unparse(moved(read.file, folder))), findings)
+    return read.sources[0], text or ""
 
 
 def _refuse_nested_messages(file: tree.File) -> None:

@@ -13,6 +13,7 @@ import click
 
 from golc.cli.console import Console
 from golc.diagnostics import GolcError
+from golc.runtime.settings import FASTEST, SLOWEST
 
 F = TypeVar("F", bound=Callable[..., Any])
 
@@ -123,11 +124,17 @@ def speed_option(advice: str) -> Callable[[F], F]:
     """``--speed X``, with a word about the other side: the command gets ``speed``."""
     return click.option(
         "--speed",
-        type=Quantity(0.01, 1000),
+        type=Quantity(SLOWEST, FASTEST),
         default=1.0,
         show_default=True,
         help=f"How many simulated seconds pass in one; {advice}.",
     )
+
+
+def at_most_one(given: Mapping[str, bool]) -> None:
+    """A usage error if more than one of some options is given, each of which says by itself what is to be done."""
+    if len(names := [name for name, is_given in given.items() if is_given]) > 1:
+        raise click.UsageError(f"{' and '.join(names)} exclude each other")
 
 
 def address(context: click.Context, parameter: click.Parameter, value: str | None) -> tuple[str, int] | None:

@@ -7,16 +7,17 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypedDict, Unpack
+from typing import TYPE_CHECKING, TypedDict, Unpack
 
 import click
 
 from golc.cli.console import Console
 from golc.cli.files import completed
-from golc.cli.options import Quantity, console_options, constants_option
+from golc.cli.options import Quantity, at_most_one, console_options, constants_option
 from golc.diagnostics import counted
 
 if TYPE_CHECKING:
+    from golc.api.theory import StrategyName
     from golc.planning.goals import GoalPlanning
     from golc.planning.planner import Planning
     from golc.planning.plans import Outcome
@@ -92,11 +93,11 @@ def command(
     """
     from golc.api.loading import load
 
-    _only_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
+    at_most_one({"--first": first, "--shortest": shortest, "--cheapest": cheapest, "--all": most is not None})
     if goal is not None and (procedure is not None or cheapest or most is not None):
         raise click.UsageError("--goal asks for one shortest plan without a program: no PROC, --all or --cheapest")
     theory = load(file, constants)
-    strategy: Literal["first", "shortest", "cheapest"] = "shortest" if shortest else "cheapest" if cheapest else "first"
+    strategy: StrategyName = "shortest" if shortest else "cheapest" if cheapest else "first"
     try:
         planning = theory.planning(procedure, goal=goal, strategy=strategy, every=most is not None, **search)
     except ValueError:
@@ -123,13 +124,6 @@ def _write(planning: Planning | GoalPlanning, form: str, most: int | None, outpu
             cost = plan.cost
         listing.close(planning.outcome)
     return cost
-
-
-def _only_one(given: Mapping[str, bool]) -> None:
-    """A usage error if two ways to choose among plans are given."""
-    names = [name for name, is_given in given.items() if is_given]
-    if len(names) > 1:
-        raise click.UsageError(f"{names[0]} and {names[1]} exclude each other")
 
 
 @contextmanager

@@ -7,16 +7,16 @@ import re
 import sys
 from collections.abc import Mapping
 from functools import partial
-from typing import TYPE_CHECKING, Unpack
+from typing import TYPE_CHECKING, Unpack, get_args
 
 import click
 
 from golc.cli.console import Console
 from golc.cli.options import Quantity, address, console_options, constants_option, speed_option
+from golc.runtime.settings import SIMULATED, OnFailure, OnImpossible, OnSurprise, Options
 
 if TYPE_CHECKING:
     from golc.runtime.conversation import Voice
-    from golc.runtime.settings import OnFailure, Options
 
 COMMANDS = re.compile(r"\x1b(?!\[[0-9;]*m)|[\x00-\x08\x0b-\x1a\x1c-\x1f\x7f-\x9f]")
 """What could command a terminal, besides colors: a text may have been reported over a network."""
@@ -51,7 +51,7 @@ def _at_a_failure() -> OnFailure:
 @click.option(
     "--on-impossible-exog",
     "on_impossible",
-    type=click.Choice(["apply", "drop", "stop"]),
+    type=click.Choice(get_args(OnImpossible)),
     default="apply",
     show_default=True,
     help="What to do about an exogenous action that the theory thinks impossible.",
@@ -59,14 +59,14 @@ def _at_a_failure() -> OnFailure:
 @click.option(
     "--on-surprising-sensing",
     "on_surprise",
-    type=click.Choice(["apply", "stop"]),
+    type=click.Choice(get_args(OnSurprise)),
     default="apply",
     show_default=True,
     help="What to do when a device senses what the theory thinks impossible.",
 )
 @click.option(
     "--on-failure",
-    type=click.Choice(["ask", "retry", "next", "stop"]),
+    type=click.Choice(get_args(OnFailure)),
     default=_at_a_failure,
     show_default=False,
     help="What to do about an action that its device cannot do: ask (the default at a terminal), or stop.",
@@ -105,7 +105,7 @@ def command(
     golc run examples/delivery/delivery.gl
     golc run examples/delivery/delivery.gl --port /dev/ttyUSB0 --journal today.jsonl
     """
-    if port not in (None, "sim") and (options["world"] is not None or options["picture"] is not None):
+    if port not in (None, SIMULATED) and (options["world"] is not None or options["picture"] is not None):
         raise click.UsageError("--world and --picture are for a simulated brick, not for one at a port")
     from golc.api.loading import load
     from golc.runtime.running import run

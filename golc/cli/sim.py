@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, NamedTuple
 import click
 
 from golc.cli.console import Console
-from golc.cli.options import console_options, constants_option, speed_option
+from golc.cli.options import at_most_one, console_options, constants_option, speed_option
 from golc.cli.sim_machine import REST, Simulation, is_byte_code
 from golc.cli.sim_options import ByteCode, Plug, byte_code_options, line_options, plug_options
 from golc.cli.sim_room import Room
@@ -73,7 +73,7 @@ def command(
     golc run examples/delivery/delivery.gl --port /tmp/brick --speed 5
     golc sim robot.nqc --world room.toml --for 10 --picture way.svg
     """
-    _refuse_together({**plug.given, **byte_code.alone})
+    at_most_one({**plug.given, **byte_code.alone})
     others = {"--events": events is not None, "--picture": picture is not None, "-D": bool(constants)}
     _refuse_misplaced(file, world is not None, byte_code, others)
     with contextlib.ExitStack() as stack:
@@ -102,7 +102,7 @@ class _Brick(NamedTuple):
 
 def _refuse_misplaced(file: Path | None, in_a_world: bool, byte_code: ByteCode, given: Mapping[str, bool]) -> None:
     """Refuse the options that do not belong to what is simulated; ``given`` says which of the others are there."""
-    _refuse_together({"--listing": byte_code.listing, "--picture": given["--picture"]})
+    at_most_one({"--listing": byte_code.listing, "--picture": given["--picture"]})
     if is_byte_code(file) or in_a_world:
         _refuse("a domain without --world", {"--events": given["--events"]})
         _refuse("a domain", {"-D": given["-D"] and is_byte_code(file)})
@@ -117,12 +117,6 @@ def _refuse(of: str, given: Mapping[str, bool]) -> None:
     for name, is_given in given.items():
         if is_given:
             raise click.UsageError(f"{name} is for {of}")
-
-
-def _refuse_together(given: Mapping[str, bool]) -> None:
-    """Refuse options of which each says by itself what is to be done."""
-    if len(names := [name for name, is_given in given.items() if is_given]) > 1:
-        raise click.UsageError(f"{' and '.join(names)} exclude each other")
 
 
 def _show(console: Console, machine: Simulation, asked: ByteCode, line: LineOptions, room: Room | None) -> None:

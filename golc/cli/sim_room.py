@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import sys
 from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -39,10 +38,10 @@ class Room:
     def attended(self, port: Port) -> Port:
         """The port of a brick at which somebody may type what people do."""
         from golc.runtime.rcxsim.attended import AttendedPort
+        from golc.runtime.sources.exogenous import standard_input
 
-        try:
-            descriptor = sys.stdin.fileno()
-        except (AttributeError, OSError, ValueError):
+        descriptor = standard_input()
+        if descriptor is None:
             return port
         if os.isatty(descriptor):
             self._console.note("type what you do at the robot, such as `press run`, `lift`, `put back`")

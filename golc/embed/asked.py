@@ -13,7 +13,7 @@ from typing import NoReturn
 from golc.diagnostics import Code, Source, Span
 from golc.embed.errors import Refused, meaningless, refused
 from golc.embed.places import caller, calling_frame, node_at, span_of, tree_of
-from golc.embed.reading.refusals import OPERATORS
+from golc.embed.reading.refusals import IDENTITY, OPERATORS
 
 TRANSLATED = "write it in a translated function: `@theory.goal`, `@theory.define` …"
 _INSTEAD: Mapping[str, str] = {
@@ -123,11 +123,10 @@ def answered(span: Span, is_open: Callable[[object], bool]) -> Refused | None:
     kinds = (ast.Is, ast.IsNot, ast.In, ast.NotIn)
     if not any(isinstance(op, kinds) for op in node.ops) or not _speaks_of(node, calling_frame(), is_open):
         return None
-    if any(isinstance(op, (ast.In, ast.NotIn)) for op in node.ops):
+    if is_membership(span):
         return membership(span)
     sign = "!=" if any(isinstance(op, ast.IsNot) for op in node.ops) else "=="
-    help_ = f"write `{sign}`; if Python's answer is meant, `bool({span.text})`"
-    return meaningless("`is` asks for one object of Python, not for equal values", span, help_)
+    return meaningless(IDENTITY, span, f"write `{sign}`; if Python's answer is meant, `bool({span.text})`")
 
 
 def _speaks_of(node: ast.expr, frame: FrameType, is_open: Callable[[object], bool]) -> bool:
@@ -160,7 +159,12 @@ def elements() -> Refused:
 def place_in_a_table() -> Refused:
     """Python looks a term up in a dictionary or a set."""
     help_ = "make a dictionary a static, whose value is this dictionary; write a set with `{…}` in the function"
-    return meaningless("Python looks a term up at once, before there is a situation", caller(), help_)
+    return looked_up(caller(), help_)
+
+
+def looked_up(span: Span, help_: str) -> Refused:
+    """Python looks a term up in something; what helps depends on what that is."""
+    return meaningless("Python looks a term up at once, before there is a situation", span, help_)
 
 
 def text() -> Refused:

@@ -9,9 +9,9 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from golc.embed.names import BUILTINS, WORDS, golc_name
 from golc.embed.places import innermost
 from golc.embed.terms import Term
+from golc.syntax.python_names import BUILTINS, WORDS, golc_name
 from golc.theory.suggest import did_you_mean
 
 

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 
 from golc.embed.errors import Refused, meaningless
 from golc.embed.given import MISSING, named
-from golc.embed.names import golc_name, new_name
+from golc.embed.names import new_name
 from golc.embed.owners import Owned
 from golc.embed.parts import Making, Parts
 from golc.embed.places import argument, caller
@@ -19,6 +19,7 @@ from golc.embed.terms import PROGRAMS, Named
 from golc.embed.types import TypeHandle
 from golc.embed.values import expr
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 
 Make: TypeAlias = Callable[[Translator, tree.Ident], tree.Declaration]
 """Makes the declaration of a name out of a function; raises ``Refused``."""

@@ -1,8 +1,7 @@
-"""Names: how Python writes a name that it needs for itself, and what may be one."""
+"""Names that come into being in Python: what may be one."""
 
 from __future__ import annotations
 
-import keyword
 import re
 import unicodedata
 
@@ -10,34 +9,10 @@ from golc.diagnostics import Code, Span
 from golc.embed.errors import refused
 from golc.embed.values import described
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 from golc.syntax.words import RESERVED
 
-_WORDS = """
-Theory abort after before bind branch causes choose cost count each enum exists expect first forall given guard iff
-implies interrupts interval known knows let names on one_of optional otherwise pick poss possible prefer rest run say
-search senses setting star symbols test together together_star types union unknown until values var wait within
-"""
-_BUILTINS = "abs all any bool enumerate float int len list max min range set sorted str sum zip"
-
-WORDS = frozenset(_WORDS.split())
-"""The words of ``golc.embed``."""
-
-BUILTINS = frozenset(_BUILTINS.split())
-"""The builtins that have a meaning in a theory."""
-
-_PYTHONS = WORDS | BUILTINS | frozenset(keyword.kwlist) | {"theory"}
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
-
-
-def golc_name(name: str) -> str:
-    """The name that a Python name stands for: one underscore at its end is taken off if Python or this package needs
-    the name without them."""
-    return name[:-1] if name.endswith("_") and name.rstrip("_") in _PYTHONS else name
-
-
-def python_name(name: str) -> str:
-    """The Python name that stands for a name: the reverse of ``golc_name``."""
-    return name + "_" if name.rstrip("_") in _PYTHONS else name
 
 
 def new_name(text: object, span: Span, used: bool = False) -> tree.Ident:

@@ -10,7 +10,7 @@ from golc.diagnostics import NOWHERE, Code, Span
 from golc.embed import asked
 from golc.embed.asked import Unanswerable
 from golc.embed.errors import Refused, refused
-from golc.embed.places import caller, calling_frame, frame_span, node_at, span_of
+from golc.embed.places import caller, each_argument, node_at, span_of
 from golc.embed.values import Meaningful, expr
 from golc.syntax import tree
 from golc.syntax.walk import descendants
@@ -197,18 +197,11 @@ class Named(Term):
 
     def __call__(self, *args: object, **named: object) -> Term:
         """The name applied to arguments, by place or by the names of the parameters."""
-        frame = calling_frame()
-        span = frame_span(frame)
+        span = caller()
         call = node_at(span)
-        if isinstance(call, ast.Call):
-            places = [span_of(span.source, arg) for arg in call.args]
-            head = span_of(span.source, call.func)
-        else:
-            places, head = [], span
-        given = tuple(named.items())
-        ordered = in_order(self, args, given, span)
-        exact = len(places) == len(ordered)
-        nodes = tuple(expr(value, places[i] if exact else span) for i, value in enumerate(ordered))
+        head = span_of(span.source, call.func) if isinstance(call, ast.Call) else span
+        ordered = in_order(self, args, named.items(), span)
+        nodes = tuple(map(expr, ordered, each_argument(span, len(ordered))))
         return Compound(tree.Apply(tree.Ident(self.name, span=head), nodes, span=span))
 
 
@@ -294,8 +287,8 @@ def _place(count: int) -> tuple[Span, list[Span]]:
             parts = [operand]
         case ast.Subscript(value=value, slice=index):
             parts = [value, index]
-        case ast.Call(args=args):
-            parts = args
+        case ast.Call():
+            return span, each_argument(span, count)
     return span, [span_of(source, part) for part in parts] if len(parts) == count else [span] * count
 
 

@@ -8,12 +8,12 @@ from typing import Any, NoReturn
 
 from golc.diagnostics import Code, Span, counted
 from golc.embed.errors import meaningless, refused
-from golc.embed.names import golc_name
 from golc.embed.places import caller
 from golc.embed.terms import Compound, Named, Term, binary, function, plain_names, variable
 from golc.embed.types import type_node
 from golc.embed.values import expr
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 from golc.syntax.walk import descendants
 
 

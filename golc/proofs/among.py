@@ -158,7 +158,7 @@ class Among:
         shown = {slot: value for slot, value in values.items() if slot in kept or slot >= self._first}
         size = sum(rank(value, domains[slot]) for slot, value in shown.items())
         fluents = sum(slot < self._first for slot in shown)
-        return (fluents, size), self._asking.witness(question, domains, shown, leaf.error)
+        return (fluents, size), self._asking.witness(domains, shown, leaf.error)
 
     def _is_about_knowledge(self, step: Step) -> bool:
         terms = terms_of(self._theory, step)

@@ -71,9 +71,7 @@ class Asking:
             return Leaf(case.box(), True, assumed)
         return Leaf(case.box(), (verdict.diagnostic.message, verdict.diagnostic.span), assumed, verdict)
 
-    def witness(
-        self, question: Question, domains: Sequence[Domain], values: Mapping[int, Value], error: ProgramError | None
-    ) -> Witness:
+    def witness(self, domains: Sequence[Domain], values: Mapping[int, Value], error: ProgramError | None) -> Witness:
         """The witness with some values in slots; a variable without one may have any."""
         names, first = self.layout.ground_fluents, self.layout.size
         fluents = {show_call(*names[slot]): values[slot] for slot in sorted(values) if slot < first}

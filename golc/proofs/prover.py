@@ -11,7 +11,7 @@ from typing import Any
 from golc.diagnostics import ProgramError
 from golc.proofs.asking import Asking, Leaf
 from golc.proofs.cases import MOST_LOOKS, Budget, Case, explore, sample
-from golc.proofs.domains import Domain, any_of
+from golc.proofs.domains import Domain
 from golc.proofs.questions import Question, Undecided, Witness
 from golc.proofs.rigid import Rigid
 from golc.proofs.smallest import rank, reduced, smallest
@@ -66,7 +66,7 @@ class Prover:
         functions = [*asked, *self._rigid.assumed()]
         if not functions or not answer.certain:
             return answer
-        found = self._uniform.witness(question, self._values(question, answer))
+        found = self._uniform.witness(question, self._values(answer))
         if found is None:
             return Undecided(str(NeedsPythonError(functions[0])), function=functions[0])
         domains = self.asking.domains_of(question)
@@ -74,9 +74,9 @@ class Prover:
         try:
             return self._fixed(question, domains, found.values, matter)
         except NeedsPythonError:  # it is the solver that has shown it
-            return self.asking.witness(question, domains, found.values, None)
+            return self.asking.witness(domains, found.values, None)
 
-    def _values(self, question: Question, witness: Witness) -> dict[int, Value]:
+    def _values(self, witness: Witness) -> dict[int, Value]:
         """The values of a witness by their slots."""
         slots = self.asking.layout.slots
         named = {slots[name]: value for name, value in witness.fluents.items()}
@@ -86,24 +86,7 @@ class Prover:
     def _uniform(self) -> Uniform:
         names = self.asking.layout.ground_fluents
         slots = [slot for slot, (name, _) in enumerate(names) if name in self._rigid.fluents]
-        return Uniform(self.asking, frozenset(slots), self._refuted)
-
-    def _refuted(self, question: Question, values: Mapping[int, Value]) -> Mapping[int, Value] | None:
-        """Values with which what a question asks is not so, if a solver finds some that include the given ones."""
-        try:
-            from golc.proofs.solver import refuted
-        except ImportError:
-            raise NotDecidedError("there is no solver") from None
-        names, first = self.asking.layout.ground_fluents, self.asking.layout.size
-        domains = self.asking.domains_of(question)
-        fluents = {names[slot]: value for slot, value in values.items() if slot < first}
-        variables = [values.get(slot, any_of(domains[slot])) for slot in range(first, len(domains))]
-        found = refuted(self._rigid.theory, question, fluents, variables)
-        return None if found is None else self._slots(found)
-
-    def _slots(self, fluents: Mapping[tuple[str, tuple[Value, ...]], Value]) -> dict[int, Value]:
-        """The values of ground fluents by their slots."""
-        return {self.asking.layout.places[name].slot(args): value for (name, args), value in fluents.items()}
+        return Uniform(self.asking, frozenset(slots))
 
     def _answer(self, question: Question, small: bool) -> Witness | Undecided | None:
         answer = self._explored(question, small)
@@ -175,14 +158,14 @@ class Prover:
             return replace(why, reason=f"{why.reason}; {error}")
         if found is None:
             return None
-        values = self._slots(found[0]) | dict(enumerate(found[1], start=self.asking.layout.size))
+        values = self.asking.layout.placed(found[0]) | dict(enumerate(found[1], start=self.asking.layout.size))
         fixed = [(values[slot],) if slot in values else of for slot, of in enumerate(domains)]
         try:
             for case, leaf in itertools.islice(self._cases(question, fixed), MORE_CASES):
                 if leaf.is_witness:
                     return self._witness(question, domains, [(case, leaf)], small)
         except NeedsPythonError:  # which is then left to the solver, whatever the function is
-            return self.asking.witness(question, domains, values, None)
+            return self.asking.witness(domains, values, None)
         except NotDecidedError as error:
             return replace(why, reason=f"{why.reason}; {error}")
         return replace(why, reason=f"{why.reason}; what the solver says is not confirmed")
@@ -216,7 +199,7 @@ class Prover:
         kept = {*case.cells} if matter is None else matter
         shown = {slot: value for slot, value in values.items() if slot >= first or slot in kept}
         error = verdict if isinstance(verdict, ProgramError) else None
-        return self.asking.witness(question, domains, shown, error)
+        return self.asking.witness(domains, shown, error)
 
 
 def _worth(case: Case, domains: Sequence[Domain]) -> tuple[bool, int, int]:

@@ -7,7 +7,7 @@ A situation that fits every function is a witness; if none fits a few of them, t
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple, TypeAlias
 
@@ -65,15 +65,10 @@ class _Supposed(Case):
 
 @dataclass
 class Uniform:
-    """Looks for such situations.
-
-    ``slots`` are those of the functions. ``refuted`` is asked where these cannot be gone through: for values with which
-    what is asked is not so, among them some that are given, or for none if there are none.
-    """
+    """Looks for such situations; ``slots`` are those of the functions."""
 
     asking: Asking
     slots: frozenset[int]
-    refuted: Callable[[Question, Values], Values | None]
 
     def witness(self, question: Question, first: Values) -> Found | None:
         """A situation in which what is asked is so for every function; none if it is not known whether there is one.
@@ -135,10 +130,23 @@ class Uniform:
         except NotDecidedError:
             if question.fails:  # it might fail in several ways
                 raise
-        refuted = self.refuted(question, values)
+        refuted = self._refuted(question, values)
         if refuted is None:
             return Found(values, True)
         return Function({slot: value for slot, value in refuted.items() if slot in self.slots})
+
+    def _refuted(self, question: Question, values: Values) -> Values | None:
+        """Values with which what is asked is not so, among them some that are given, or none if there are none; a
+        solver is asked for them where the functions cannot be gone through."""
+        try:
+            from golc.proofs.solver import refuted
+        except ImportError:
+            raise NotDecidedError("there is no solver") from None
+        layout, domains = self.asking.layout, self.asking.domains_of(question)
+        fluents = {layout.ground_fluents[slot]: value for slot, value in values.items() if slot < layout.size}
+        variables = [values.get(slot, any_of(domains[slot])) for slot in range(layout.size, len(domains))]
+        found = refuted(self.asking.theory, question, fluents, variables)
+        return None if found is None else layout.placed(found)
 
     def _leaves(self, question: Question, values: Values) -> Iterator[tuple[Case, Leaf]]:
         """The answers in a situation, whatever the functions are."""

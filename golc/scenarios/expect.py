@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Sequence
 
-from golc.diagnostics import Code, Diagnostic, ProgramError, Span
+from golc.diagnostics import Code, Diagnostic, ProgramError, Span, counted
 from golc.program.blame import false_parts, valued
 from golc.situation.dynamics import Dynamics
 from golc.situation.worlds import State
@@ -46,7 +46,7 @@ class Judge:
             match expected:
                 case ExpectActions(actions=actions) if self._actions < len(actions):
                     missing = actions[self._actions]
-                    message = f"the run ends after {_actions(self._actions)}, and `{missing}` is expected next"
+                    message = f"the run ends after {counted(self._actions, 'action')}, and `{missing}` is expected next"
                     raise failed(message, missing.span, "expected next")
                 case ExpectCount() if expected.relation != "at most" and self._counts[index] < expected.count:
                     raise self._miscounted(expected, self._counts[index])
@@ -59,22 +59,15 @@ class Judge:
         place = self._actions - 1
         if place >= len(expected.actions):
             message = f"action {self._actions} is `{done}`, where the run is expected to have ended"
-            raise failed(message, expected.span, f"{_actions(len(expected.actions))} expected")
+            raise failed(message, expected.span, f"{counted(len(expected.actions), 'action')} expected")
         wanted = expected.actions[place]
         if str(wanted) != done:
             message = f"action {self._actions} is `{done}`, and `{wanted}` is expected"
             raise failed(message, wanted.span, f"action {self._actions} is another one")
 
     def _miscounted(self, expected: ExpectCount, count: int) -> ProgramError:
-        message = f"`{expected}` happens {_times(count)}, and {expected.relation} {_times(expected.count)} is expected"
+        times = counted(expected.count, "time")
+        message = f"`{expected}` happens {counted(count, 'time')}, and {expected.relation} {times} is expected"
         if count > expected.count:
-            message = f"`{expected}` happens more than {_times(expected.count)}"
+            message = f"`{expected}` happens more than {times}"
         return failed(message, expected.span)
-
-
-def _actions(count: int) -> str:
-    return f"{count} action{'s' * (count != 1)}"
-
-
-def _times(count: int) -> str:
-    return f"{count} time{'s' * (count != 1)}"

@@ -6,7 +6,7 @@ arguments, the last one fastest.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
@@ -76,6 +76,10 @@ class Layout:
     def ground_fluents(self) -> tuple[tuple[str, tuple[Value, ...]], ...]:
         """Name and arguments of each slot."""
         return tuple((name, args) for name, place in self.places.items() for args in place.arguments())
+
+    def placed(self, values: Mapping[tuple[str, tuple[Value, ...]], Value]) -> dict[int, Value]:
+        """The values of ground fluents by their slots."""
+        return {self.places[name].slot(args): value for (name, args), value in values.items()}
 
     @cached_property
     def slots(self) -> dict[str, int]:

@@ -11,4 +11,7 @@ of the words of the language.
 
 From tree to text: ``unparse`` prints a tree with the ``notation`` of its expressions. ``format`` keeps the words of a
 text, with its ``comments``, and puts in order what stands between them (``spacing``, ``breaks``, ``parentheses``).
+
+The other form of the language, Python, is read and printed by ``golc.embed``; what a name is called there is said here
+(``python_names``), for messages speak of it, too.
 """

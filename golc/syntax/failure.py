@@ -19,6 +19,10 @@ from golc.syntax.terminals import words
 
 LAYOUT = frozenset({"_NL", "_INDENT", "_DEDENT"})
 
+MOST_KEPT = 1_000_000
+"""How many states of the parser are kept of a line: each word of a chain such as ``a implies b implies …`` has a deeper
+stack than the one before."""
+
 
 @dataclass(frozen=True)
 class Failure:
@@ -26,8 +30,8 @@ class Failure:
 
     ``start`` is the symbol that the part was parsed from; ``tokens`` were read; ``bad`` came next, None for a
     character; ``place`` is its offset in the part; ``accepts`` are the terminals that could have come, ``chosen_from``
-    those that could have come instead of the last token read; ``stacks`` are the parser's before each word of the
-    current line, and where it failed.
+    those that could have come instead of the last token read; ``stack`` is the parser's where it failed, ``stacks`` are
+    those before each word of the current line, as far as they are kept.
     """
 
     part: Span
@@ -37,6 +41,7 @@ class Failure:
     place: int
     accepts: frozenset[str]
     chosen_from: frozenset[str]
+    stack: tuple[int, ...]
     stacks: tuple[tuple[int, ...], ...]
 
     @property
@@ -67,6 +72,11 @@ class Failure:
                 break
             words.append(token)
         return words[::-1]
+
+    @cached_property
+    def words(self) -> list[str]:
+        """What has been read of the current line, as text."""
+        return [str(token) for token in self.line]
 
     @cached_property
     def line_before(self) -> list[Token]:
@@ -147,13 +157,15 @@ def read(part: Span, start: str, text: str) -> Tree[Token] | Failure:
     tokens: list[Token] = []
     line: list[tuple[int, ...]] = []
     before = current = tuple(stack)
+    kept = 0
     try:
         for token in lex(interactive.parser_state):
             interactive.feed_token(token)
             tokens.append(token)
             if token.type in LAYOUT:
                 line.clear()
-            else:
+                kept = 0
+            elif (kept := kept + len(current)) <= MOST_KEPT:
                 line.append(current)
             before, current = current, tuple(stack)
         parsed: Tree[Token] = feed_eof(tokens[-1] if tokens else None)
@@ -165,7 +177,7 @@ def read(part: Span, start: str, text: str) -> Tree[Token] | Failure:
         bad, place = None, error.pos_in_stream
     # The parser reduces before it finds that a token does not fit: what it accepts is asked of the state before that.
     accepts, chosen_from = _accepts(interactive, current), _accepts(interactive, before)
-    return Failure(part, start, tuple(tokens), bad, place, accepts, chosen_from, (*line, current))
+    return Failure(part, start, tuple(tokens), bad, place, accepts, chosen_from, current, tuple(line))
 
 
 def wants(start: str, stack: Iterable[int], terminal: str) -> bool:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import difflib
 from collections.abc import Iterable
 
+from golc.syntax.words import DECLARATIONS, OTHER_NAMES
+
 
 def closest(word: str, words: Iterable[str]) -> str | None:
     """The word that was probably meant; short ones have to be nearer."""
@@ -18,3 +20,8 @@ def close(word: str, words: Iterable[str]) -> list[str]:
     swapped = [candidate for candidate in candidates if sorted(candidate) == sorted(lower)]
     near = difflib.get_close_matches(lower, candidates, n=3, cutoff=0.7 if len(word) > 3 else 0.8)
     return swapped or (near if len(word) > 2 else [])
+
+
+def meant_declaration(word: str) -> str | None:
+    """The word that begins a declaration and was probably meant by one that does not."""
+    return OTHER_NAMES.get(word.lower()) or closest(word, DECLARATIONS)

@@ -22,6 +22,9 @@ TITLES = {
     "_WAITING": "`waiting`",
 }
 
+BRANCHING = {"OR": "or", "AND": "and", "_OVER": "over"}
+"""The words that begin a further branch of a statement."""
+
 
 def word_of(terminal: str) -> str | None:
     """The word that a terminal stands for; None if it is a sign or has many forms."""

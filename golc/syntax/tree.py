@@ -28,9 +28,6 @@ class Ident(Node):
     text: str
 
 
-# ---- expressions
-
-
 @dataclass(frozen=True)
 class Number(Node):
     value: int
@@ -197,9 +194,6 @@ Expr: TypeAlias = (
 ValueExpr: TypeAlias = Expr | Unknown | OneOf
 
 
-# ---- types
-
-
 @dataclass(frozen=True)
 class TypeName(Node):
     """A declared type, or ``bool int real string``."""
@@ -245,9 +239,6 @@ class CollectionType(Node):
 
 
 Type: TypeAlias = TypeName | IntervalType | EnumType | UnionType | OptionalType | CollectionType
-
-
-# ---- declarations
 
 
 @dataclass(frozen=True)
@@ -557,9 +548,6 @@ class File(Node):
     domain: Ident
     declarations: tuple[Declaration, ...]
     unread: tuple[Span, ...] = field(default=(), compare=False, repr=False, kw_only=True)
-
-
-# ---- programs
 
 
 @dataclass(frozen=True)

@@ -6,20 +6,18 @@ collects the names, ``context`` resolves each declaration once, the ``elaborate_
 
 from __future__ import annotations
 
-import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TypeVar
 
-from golc.diagnostics import Code, Diagnostic, Findings, Label, Source, Span
+from golc.diagnostics import Code, Findings, Label, Source
 from golc.syntax import tree
-from golc.syntax.words import RESERVED
 from golc.theory import elaborate_actions as actions
 from golc.theory import elaborate_statements as programs
 from golc.theory import elaborate_types as types
 from golc.theory import elaborate_values as values
 from golc.theory.calls import circular, substatements
-from golc.theory.context import WORD, Context, Resolver, Signature
+from golc.theory.context import Context, Resolver, Signature
 from golc.theory.declare import declare
 from golc.theory.elaborate_axioms import with_axioms
 from golc.theory.elaborate_devices import device_name, devices
@@ -30,7 +28,6 @@ from golc.theory.python_file import PythonFiles
 from golc.theory.recursion import deep_recursion
 from golc.theory.scope import Entry, Kind
 from golc.theory.statements import Invoke
-from golc.theory.suggest import closest
 from golc.theory.terms import DefinedTerm, PossTerm, Term, subterms
 from golc.theory.theory import (
     Action,
@@ -43,16 +40,9 @@ from golc.theory.theory import (
 )
 from golc.theory.types import Type
 from golc.theory.unfolding import check_unfolding
+from golc.theory.unread import brings_a_name, is_about, names_in
 
 T = TypeVar("T")
-
-_STAND_IN = re.compile(f"`({tree.STAND_IN}_*)`")
-
-_NAMELESS = re.compile(
-    r"(?:import|(?:const|type|static|extern|fluent|define|action|exog|proc|goal|let|for|pick|on some)"
-    r"[ \t]*(?:[^A-Za-z \t]|(?:from|in|where)\b))"
-)
-"""The beginning of an import, or of a declaration or line whose name is missing."""
 
 
 def elaborate(
@@ -68,11 +58,11 @@ def elaborate(
     executed; without it there is no theory, only notes, if a value in its declarations takes that. Of what could not
     be read, names that may be declared there are not reported.
     """
-    theory = outlined(file, source, findings, constants, trust)
+    theory = outline(file, source, findings, constants, trust)
     return None if findings.has_errors else theory
 
 
-def outlined(
+def outline(
     file: tree.File,
     source: Source,
     findings: Findings,
@@ -81,20 +71,17 @@ def outlined(
 ) -> BasicActionTheory | None:
     """As ``elaborate``, but if there are errors what is left without the parts that have them, where that can be said;
     what it speaks of need not be in it."""
-    unread = [span.text for span in file.unread]
-    assumed = frozenset([word for text in unread for word in WORD.findall(text)])
-    nameless = any(map(_brings_a_name, unread))
     found = Findings()
     if not findings.has_errors:
         _no_imports(file, found)
     theory = None
     try:
         with deep_recursion():
-            theory = _elaborate(file, source, found, constants or {}, assumed, nameless, PythonFiles(trust))
+            theory = _elaborate(file, source, found, constants or {}, PythonFiles(trust))
     except RecursionError:
         message = "the declarations of this file depend on each other too deeply"
         found.error(Code.NESTING, message, file.domain.span, "more than golc can follow")
-    findings.diagnostics += [finding for finding in found.diagnostics if not _is_about(finding, file.unread)]
+    findings.diagnostics += [finding for finding in found.diagnostics if not is_about(finding, file.unread)]
     return theory
 
 
@@ -107,40 +94,15 @@ def _no_imports(file: tree.File, findings: Findings) -> None:
             findings.error(Code.NO_FILE, message, node.span, "relative to no folder")
 
 
-def _is_about(finding: Diagnostic, unread: Iterable[Span]) -> bool:
-    """Whether a finding is about what has been passed over: it lies in that, or it is about something which holds a
-    part of it, or it speaks of the name that stands for it."""
-    span = finding.span
-    named = _STAND_IN.search(finding.message)
-    return (named is not None and named[1] not in span.source.text) or any(
-        span.source is each.source
-        and ((each.start <= span.start and span.end <= each.end) or (span.start <= each.start and each.end <= span.end))
-        for each in unread
-    )
-
-
-def _brings_a_name(unread: str) -> bool:
-    """Whether what was not read would bring a name that does not stand in it: it has none, or one that cannot be one,
-    or it is an import."""
-    first = WORD.match(unread.strip())
-    return (
-        unread in RESERVED
-        or _NAMELESS.match(unread.strip()) is not None
-        or (first is not None and closest(first[0], ["import"]) is not None)
-    )
-
-
 def _elaborate(
     file: tree.File,
     source: Source,
     findings: Findings,
     constants: Mapping[str, str],
-    assumed: frozenset[str],
-    nameless: bool,
     python: PythonFiles,
 ) -> BasicActionTheory | None:
-    declared = declare(file, findings, assumed)
-    declared.names.nameless = nameless
+    declared = declare(file, findings, frozenset(names_in(file.unread)))
+    declared.names.nameless = any(map(brings_a_name, file.unread))
     context = Context(source, declared, findings, constants, RESOLVERS, values.constant_value, python)
     blocks = [node for node in file.declarations if isinstance(node, tree.Device)]
     context.device_names = tuple([device_name(node) for node in blocks])
@@ -172,7 +134,7 @@ def _elaborate(
     if not _has_circles(context, theory):
         check_unfolding(context, theory)
     check_initially(context, theory)
-    context.finish()
+    context.complaints.finish()
     return None if context.gaps else theory
 
 

@@ -133,9 +133,6 @@ def _quantity(context: Context, node: tree.Expr) -> Fraction | None:
     return Fraction(found.value) if found is not None and isinstance(found.value, int | Fraction) else None
 
 
-# ---- bindings
-
-
 def _binding(
     context: Context,
     device: tree.Device,
@@ -242,7 +239,7 @@ def _unknown_arg(context: Context, node: tree.Ident, parameter: Parameter) -> No
         message = f"`{node.text}` is neither a constant nor a parameter with its type"
         context.error(Code.BINDING, message, node.span, "not a constant", help_)
     else:
-        context.misspelt(Code.UNKNOWN_NAME, node, similar)
+        context.complaints.misspelt(Code.UNKNOWN_NAME, node, similar)
 
 
 def _part_of(type_: Type, whole: Type) -> bool:

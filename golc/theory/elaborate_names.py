@@ -113,11 +113,11 @@ def arity_fits(context: Context, node: tree.Apply | tree.Pattern | tree.Binding,
     """Whether something gets as many arguments as it takes; otherwise a finding."""
     suspect = Suspect(Matter.ARITY, entry.span)
     if given == entry.arity:
-        context.clear([suspect])
+        context.complaints.clear([suspect])
         return True
     name = node.name if isinstance(node, tree.Apply) else node.action
     if given > entry.arity:
-        context.blame.short.add(entry.span)
+        context.complaints.blame.short.add(entry.span)
     takes = f"{entry.arity} argument{'s' * (entry.arity != 1)}" if entry.arity else "no arguments"
     labels = (Label(entry.span, f"{entry.kind.phrase} with {takes} is declared here"),)
     marker = f"{given} argument{'s' * (given != 1)} here" if given else "no arguments here"
@@ -154,9 +154,9 @@ def doing(context: Context, name: tree.Ident, given: int | None, kinds: Iterable
         help_ = _declare_doing(name, kinds, given)
         if Kind.PROCEDURE in kinds and not given:
             help_ = _as_word(name) or help_
-        context.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
+        context.complaints.missing(Code.UNKNOWN_ACTION, f"unknown {wanted} `{name.text}`", name.span, help_)
         return None
-    context.misspelt(Code.UNKNOWN_ACTION, name, similar)
+    context.complaints.misspelt(Code.UNKNOWN_ACTION, name, similar)
     return None
 
 
@@ -197,9 +197,11 @@ def unknown_fluent(context: Context, scope: Scope, name: tree.Ident, given: int)
     similar = context.names.similar(name.text, [Kind.FLUENT], given)
     if similar is None:
         declared = f"declare it: `fluent {name.text}… = …`"
-        context.missing(Code.UNKNOWN_NAME, message, name.span, name.span.either(declared, _under_fluent(name)))
+        context.complaints.missing(
+            Code.UNKNOWN_NAME, message, name.span, name.span.either(declared, _under_fluent(name))
+        )
     else:
-        context.misspelt(Code.UNKNOWN_NAME, name, similar)
+        context.complaints.misspelt(Code.UNKNOWN_NAME, name, similar)
 
 
 def _under_fluent(name: tree.Ident) -> str:
@@ -224,34 +226,50 @@ def _unknown_term(context: Context, scope: Scope, node: tree.Apply, hint: Type |
         return
     action = context.names.doings.get(name.text)
     if action is not None:
-        asked = name.span.text if len(name.span.text) <= 40 else name.text
-        help_ = None if action.kind is Kind.PROCEDURE else f"`poss({asked})` says whether it is possible"
-        message = f"`{name.text}` is {action.kind.phrase}, not a value"
-        labels = (Label(action.span, "declared here"),)
-        context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_, labels)
+        _no_value(context, name, action)
         return
     variables = () if given else tuple(scope.locals)
     similar = context.names.similar(name.text, CALLS if given else TERMS, given, variables, _symbols_of(hint, given))
-    local = None if similar is None or similar.labels else scope.locals.get(similar.name)
-    if similar is None and not given and name.text.lower() in ("true", "false", "none", "null"):
+    if similar is None:
+        _unlike_any(context, name, given, hint)
+    elif name.text in ASKING:
+        _asks_nothing(context, name)
+    else:
+        local = None if similar.labels else scope.locals.get(similar.name)
+        context.complaints.misspelt(Code.UNKNOWN_NAME, name, similar, None if local is None else local.span)
+
+
+def _no_value(context: Context, name: tree.Ident, action: Entry) -> None:
+    asked = name.span.text if len(name.span.text) <= 40 else name.text
+    help_ = None if action.kind is Kind.PROCEDURE else f"`poss({asked})` says whether it is possible"
+    message = f"`{name.text}` is {action.kind.phrase}, not a value"
+    labels = (Label(action.span, "declared here"),)
+    context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_, labels)
+
+
+def _unlike_any(context: Context, name: tree.Ident, given: int, hint: Type | None) -> None:
+    """A name that is declared nowhere and like no declared one; perhaps it is a word of the language, or like one."""
+    if not given and name.text.lower() in ("true", "false", "none", "null"):
         _capital(context, name)
         return
-    if similar is None and hint is BROKEN and not given:
+    if hint is BROKEN and not given:
         return  # probably a value of the type that is missing, which has been said
-    meant = closest(name.text, ASKING if given else VALUES) if similar is None else None
+    meant = closest(name.text, ASKING if given else VALUES)
     if name.text in ASKING:
-        message, help_ = f"`{name.text}` is no value", f"write `{name.text}(…)`, with what it is asked of"
-        context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_)
+        _asks_nothing(context, name)
     elif meant is not None:
         message, help_ = f"unknown word `{name.text}`", f"did you mean `{word(meant, name.span)}`?"
         context.error(Code.UNKNOWN_NAME, message, name.span, "not declared", help_)
-    elif similar is None:
-        declared = f"declare it: `fluent {name.text}(…) = …`"
-        fluent = ("fluent", name.span.either(declared, _under_fluent(name)))
-        what, help_ = fluent if given else ("name", _declare(name))
-        context.missing(Code.UNKNOWN_NAME, f"unknown {what} `{name.text}`", name.span, help_)
+    elif given:
+        help_ = name.span.either(f"declare it: `fluent {name.text}(…) = …`", _under_fluent(name))
+        context.complaints.missing(Code.UNKNOWN_NAME, f"unknown fluent `{name.text}`", name.span, help_)
     else:
-        context.misspelt(Code.UNKNOWN_NAME, name, similar, None if local is None else local.span)
+        context.complaints.missing(Code.UNKNOWN_NAME, f"unknown name `{name.text}`", name.span, _declare(name))
+
+
+def _asks_nothing(context: Context, name: tree.Ident) -> None:
+    message, help_ = f"`{name.text}` is no value", f"write `{name.text}(…)`, with what it is asked of"
+    context.error(Code.MISUSED_NAME, message, name.span, "a value is needed here", help_)
 
 
 def _capital(context: Context, name: tree.Ident) -> None:

@@ -128,9 +128,6 @@ def number(context: Context, scope: Scope, node: tree.Expr, what: str) -> Term:
     return as_number(context, term(context, scope, node, REAL), what)
 
 
-# ---- names
-
-
 def _apply(context: Context, scope: Scope, node: tree.Apply, hint: Type | None) -> Term:
     if node.args and node.name.text in ("abs", "poss", "len", "first", "rest", "before"):
         return _function(context, scope, node, hint)
@@ -211,9 +208,6 @@ def _poss(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term:
     return broken(span) if args is None else PossTerm(entry.name, args, type=BOOL, span=span)
 
 
-# ---- knowledge and the past
-
-
 def _epistemic(context: Context, scope: Scope, node: tree.Epistemic) -> Term:
     inner = replace(scope, before=False)
     if node.kind == "known":
@@ -231,9 +225,6 @@ def _before(context: Context, scope: Scope, node: tree.Expr, span: Span) -> Term
         context.error(Code.MISPLACED_CLAUSE, "`before(…)` has no meaning here", span, "before what?", help_)
         return broken(span)
     return body if body.type is BROKEN else Before(body, type=body.type, span=span)
-
-
-# ---- operators
 
 
 def _unary(context: Context, scope: Scope, node: tree.Unary) -> Term:
@@ -319,9 +310,6 @@ def _conditional(context: Context, scope: Scope, node: tree.IfElse, hint: Type |
     return conditional(context, then, condition, otherwise, hint, node.span)
 
 
-# ---- binders
-
-
 def bind(context: Context, scope: Scope, nodes: tuple[tree.Binder, ...]) -> tuple[Scope, tuple[Binder, ...]]:
     """The scope inside some binders, each of which may speak of those before it."""
     found = []
@@ -345,9 +333,6 @@ def _range(context: Context, scope: Scope, node: tree.Binder) -> tuple[Type, Ter
     if whole is None and within.type is not BROKEN:
         mismatch(context, within, "a set or a list", f"`{node.name.text} in …`")
     return (BROKEN, None) if whole is None else (whole.element, within)
-
-
-# ---- sets, lists, messages
 
 
 def _display(

@@ -94,9 +94,9 @@ def unknown_type(context: Context, name: tree.Ident) -> None:
     similar = context.names.similar(name.text, [Kind.TYPE], variables=BUILTIN_TYPES)
     if similar is None:
         declared = name.span.either(f"type {name.text} = …", f'{name.text} = theory.type("{name.text}", …)')
-        context.missing(Code.UNKNOWN_TYPE, message, name.span, f"declare it: `{declared}`")
+        context.complaints.missing(Code.UNKNOWN_TYPE, message, name.span, f"declare it: `{declared}`")
     else:
-        context.misspelt(Code.UNKNOWN_TYPE, name, similar)
+        context.complaints.misspelt(Code.UNKNOWN_TYPE, name, similar)
 
 
 def home(context: Context, entry: Entry) -> Type:

@@ -215,9 +215,6 @@ def parameter_scope(context: Context, found: tuple[Parameter, ...], nodes: tuple
     return scope
 
 
-# ---- tables
-
-
 def _table(context: Context, signature: Signature, node: tree.Table) -> Mapping[tuple[Value, ...], Value] | None:
     types = [parameter.type for parameter in signature.parameters]
     name = signature.entry.name
@@ -284,9 +281,6 @@ def _missing(signature: Signature, table: Mapping[tuple[Value, ...], Value]) -> 
 
 def _shown_key(key: tuple[Value, ...], place: Span) -> str:
     return f"`{word(show(key[0]), place)}`" if len(key) == 1 else f"`{show_call('', key)}`"
-
-
-# ---- names of constants given on the command line
 
 
 def check_overrides(context: Context) -> None:

@@ -52,7 +52,7 @@ def fits(context: Context, found: Term, needed: Type, what: str, declared: Span 
             context.error(Code.OUTSIDE_TYPE, message, part.span, f"{place} needs {type_}")
             good = False
         else:
-            context.clear(suspects(context, part, declared=declared))
+            context.complaints.clear(suspects(context, part, declared=declared))
     return good
 
 
@@ -97,7 +97,7 @@ def as_number(context: Context, found: Term, what: str) -> Term:
     """A term, if it may be a number; ``what`` says for what one is needed."""
     if may_be(found.type, REAL):
         if found.type is not BROKEN:
-            context.clear(suspects(context, found))
+            context.complaints.clear(suspects(context, found))
         return found
     help_ = cure(found, REAL)
     if found.type == STRING and what == "`+`":

@@ -7,6 +7,7 @@ import re
 
 from golc.diagnostics import Span
 from golc.syntax import tree
+from golc.syntax.python_names import python_name
 from golc.theory.fitting import Either
 from golc.theory.types import BOOL, Collection, Enumeration, Interval, Optional, Primitive, Type
 
@@ -77,8 +78,6 @@ def name_text(name: str, place: Span) -> str:
     """A declared name as it is written in the form of a place: Python needs some names for itself."""
     if not place.source.python:
         return name
-    from golc.embed.names import python_name
-
     return PYTHON_TYPES[name] if name in PYTHON_TYPES else python_name(name)
 
 
@@ -98,9 +97,8 @@ def sign(text: str, place: Span) -> str:
 def joined_tightly(place: Span) -> bool:
     """Whether Python's ``&``, ``|`` or ``~`` stands beside a term: they bind more tightly than comparisons."""
     text = place.source.text
-    return place.source.python and bool(
-        re.search(r"[&|~]\s*\Z", text[: place.start]) or re.match(r"\s*[&|]", text[place.end :])
-    )
+    before, behind = text[: place.start].rstrip(), text[place.end :].lstrip()
+    return place.source.python and (before.endswith(("&", "|", "~")) or behind.startswith(("&", "|")))
 
 
 def is_call(name: Span) -> bool:

@@ -50,7 +50,7 @@ class Queries:
                     self.source, declared, findings, self.constants, RESOLVERS, values.constant_value, self.python
                 )
                 found = meaning(context, node)
-                context.finish()
+                context.complaints.finish()
         if found is None or findings.has_errors or context.gaps:
             wrong = [each for each in findings.diagnostics if each.severity is Severity.ERROR]
             raise UserError(*(wrong or findings.diagnostics))

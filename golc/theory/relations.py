@@ -83,7 +83,7 @@ def equality(context: Context, op: Operator, left: Term, right: Term, span: Span
 def _clear(context: Context, left: Term, right: Term) -> None:
     """Two terms that go together speak for each other's declarations."""
     if BROKEN not in (left.type, right.type):
-        context.clear(suspects(context, left, right))
+        context.complaints.clear(suspects(context, left, right))
 
 
 def _taken_in(op: Operator, left: Term, span: Span) -> str | None:
@@ -158,7 +158,7 @@ def within_type(context: Context, element: Term, within: Type, span: Span) -> Te
         message = f"{typed(element)} can never be in {describe(within, span)}"
         context.error(Code.TYPE_MISMATCH, message, span, "always false", suspects=suspects(context, element))
         return broken(span)
-    context.clear(suspects(context, element))
+    context.complaints.clear(suspects(context, element))
     if not may_be(element.type, within):
         name = shown(element)
         help_ = f"write `{within.low} <= {name} and {name} <= {within.high}`" if isinstance(within, Interval) else None

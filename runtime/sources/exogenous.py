@@ -8,6 +8,7 @@ from __future__ import annotations
 import contextlib
 import os
 import select
+import sys
 import threading
 from collections.abc import Callable, Mapping
 from dataclasses import replace
@@ -137,6 +138,14 @@ class Splitter:
         """The last line, if the stream ended in the middle of it."""
         rest, self._rest = self._rest, b""
         return [rest] if rest else []
+
+
+def standard_input() -> int | None:
+    """The descriptor of standard input, if there is one."""
+    try:
+        return sys.stdin.fileno()
+    except (AttributeError, OSError, ValueError):
+        return None
 
 
 class Terminal:

@@ -108,9 +108,6 @@ def test_every_public_name_is_there_and_says_what_it_is() -> None:
     assert dir(golc) == sorted(golc.__all__)
 
 
-# ---- loading and checking
-
-
 def test_constants_are_replaced_by_load(path: Path) -> None:
     theory = golc.load(path, {"top": "5"})
     assert theory.constants["top"].value == 5
@@ -149,9 +146,6 @@ def test_the_check_of_a_theory_is_that_of_its_file(tmp_path: Path) -> None:
     assert [finding.message for finding in golc.check(path).findings] == ["fluent `a` is not used"]
     assert str(theory.check()).startswith("warning[GL027]")
     assert theory.check(proofs=False).asked == 0
-
-
-# ---- states
 
 
 def test_a_state_is_a_mapping_from_ground_fluents(lift: golc.Theory) -> None:
@@ -200,9 +194,6 @@ def test_states_are_values(lift: golc.Theory, path: Path) -> None:
 def test_a_state_of_another_theory_is_refused(lift: golc.Theory, path: Path) -> None:
     with pytest.raises(ValueError, match="one of another theory"):
         lift.possible(golc.load(path).initial())
-
-
-# ---- actions
 
 
 def test_what_is_possible_is_listed_and_what_may_happen_apart(lift: golc.Theory) -> None:
@@ -288,9 +279,6 @@ def test_strings_and_lists_of_python_are_arguments(lift: golc.Theory) -> None:
     assert lift.do(lift.initial(), 'hear("bread")')["news"] == "bread"
 
 
-# ---- formulas and terms
-
-
 def test_formulas_hold_if_they_are_known_to_be_true(lift: golc.Theory) -> None:
     state = lift.initial()
     assert lift.holds(state, "exists n: floor. lit(n) and n > at")
@@ -356,9 +344,6 @@ def test_errors_look_as_on_the_command_line(lift: golc.Theory, path: Path) -> No
     ]
 
 
-# ---- plans
-
-
 def test_a_plan_can_be_carried_out_step_by_step(lift: golc.Theory) -> None:
     plan = lift.plan("climb(3)")
     state = lift.initial()
@@ -417,9 +402,6 @@ def test_a_plan_that_branches_is_a_tree(tmp_path: Path) -> None:
     plan = gates.plan(goal="inside")
     assert "\ngate(middle) = open:\n    drive_in\n" in str(plan)
     assert repr(plan) == "<Plan: look, 2 cases>"
-
-
-# ---- bricks
 
 
 ROBOT = 'domain robot\naction go\nproc control:\n    go\ndevice rcx "robot.nqc":\n    0 go by call go\n'

@@ -38,9 +38,6 @@ def program(*lines: str) -> str:
     return "proc control:\n" + "".join(f"    {line}\n" for line in lines)
 
 
-# ---- the initial worlds
-
-
 @pytest.mark.parametrize(
     ("text", "marked"),
     [
@@ -105,9 +102,6 @@ def test_what_is_known_at_first_may_be_an_invariant(tmp_path: Path) -> None:
     assert found(tmp_path, "invariant sure: known(at) and possible(gate = open)\n") == []
     message = "invariant `sure` is false in a world that is possible at first"
     assert found(tmp_path, "invariant sure: known(gate)\n") == [("GL052", message, "known(gate)")]
-
-
-# ---- what can never be known
 
 
 @pytest.mark.parametrize(

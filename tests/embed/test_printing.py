@@ -17,11 +17,11 @@ from golc import embed
 from golc.cli import invoke
 from golc.diagnostics import Findings, Source, UserError
 from golc.embed.modules import read_theory
-from golc.embed.names import WORDS, golc_name, python_name
 from golc.embed.printing import python_text
 from golc.loading import examine
 from golc.syntax import tree as ast
 from golc.syntax.parse import parse_file
+from golc.syntax.python_names import WORDS, golc_name, python_name
 from golc.syntax.text import read_source
 
 ROOT = Path(__file__).parents[2]

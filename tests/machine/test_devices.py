@@ -25,9 +25,6 @@ def outputs(robot: Robot) -> tuple[Output, ...]:
     return tuple(robot.machine.outputs.now)
 
 
-# ---- motors
-
-
 def test_the_state_of_the_outputs_as_measured(robot: MakeRobot) -> None:
     """After power on, then A on forward with power 5, reverse, flipped, floating, off, and with power 9."""
     text = (
@@ -74,9 +71,6 @@ def test_the_trace_has_each_change_of_a_motor(robot: MakeRobot) -> None:
         (0.002, "B", "on", "reverse"),
         (0.106, "B", "off", "reverse"),
     ]
-
-
-# ---- sensors
 
 
 def reading(robot: MakeRobot, sensor: str, raw: int, target: Target = Target.RCX, **options: object) -> int:
@@ -195,9 +189,6 @@ def test_the_trace_has_each_change_of_a_sensor(robot: MakeRobot) -> None:
     assert [(r["input"], r["value"], r["raw"]) for r in program.told("sensor")] == [(1, 1, 10)]
 
 
-# ---- clocks
-
-
 @BOTH
 def test_timers_count_tenths_of_a_second_since_they_were_cleared(robot: MakeRobot, target: Target) -> None:
     text = "int a, b, c; task main() { ClearTimer(1); Wait(99); a = Timer(1); Wait(5); b = Timer(1); c = Timer(3); }"
@@ -227,9 +218,6 @@ def test_the_watch_counts_minutes(robot: MakeRobot, target: Target) -> None:
     text = "int a, b; task main() { SetWatch(23, 59); a = Watch(); Wait(6100); b = Watch(); }"
     program = robot(text, target).run(70)
     assert (program.variable("a"), program.variable("b")) == (1439, 0)
-
-
-# ---- messages
 
 
 def test_a_message_is_kept_until_another_comes_or_it_is_cleared(robot: MakeRobot) -> None:
@@ -287,9 +275,6 @@ def test_serial_bytes_are_a_packet_if_they_are_to_be(robot: MakeRobot) -> None:
     assert [record["bytes"] for record in program.told("serial")] == ["f7 63", "f7 63"]
 
 
-# ---- sounds
-
-
 def test_sounds_do_not_hold_up_the_task_and_wait_for_each_other(robot: MakeRobot) -> None:
     text = "task main() { repeat (5) PlayTone(440, 100); Wait(250); repeat (3) PlayTone(880, 10); }"
     program = robot(text, sounds=3).run(9)
@@ -306,9 +291,6 @@ def test_muting_and_tones_from_a_variable(robot: MakeRobot) -> None:
     text = "int a; task main() { a = 523; PlayTone(a, 9); MuteSound(); PlayTone(a, 9); UnmuteSound(); ClearSound();"
     program = robot(text + "PlayTone(600, 9); }", Target.RCX2).run(1)
     assert [record["tones"] for record in program.told("sound")] == [[[523, 9]], [[600, 9]]]
-
-
-# ---- display and datalog
 
 
 @BOTH
@@ -359,9 +341,6 @@ def test_a_datalog_that_does_not_fit_is_not_made(robot: MakeRobot) -> None:
     program = robot("int a; task main() { CreateDatalog(2500); AddToDatalog(a); }").run(1)
     assert list(program.machine.datalog.entries) == [(0xFF, 1)]
     assert robot("task main() { CreateDatalog(1900); }").run(1).machine.datalog.size == 1900
-
-
-# ---- the brick itself
 
 
 def test_battery_and_firmware_can_be_read(robot: MakeRobot) -> None:

@@ -182,9 +182,6 @@ def test_an_event_cannot_look_at_anything(image_of: Callable[..., bytes], robot:
             robot(image_of([(0, 0, bytes(bad))])).run(1)
 
 
-# ---- access control
-
-
 ACQUIRING = """
 int a, b, c;
 task other() {

@@ -163,9 +163,6 @@ def test_several_bricks_get_a_program_each_and_one_can_be_chosen(tmp_path: Path)
     assert invoke(["gen-nqc", str(tmp_path / "two.gl"), "--download", "--port", "x", "-q"]) == 2
 
 
-# ---- download
-
-
 class Loader(threading.Thread):
     """What the firmware of a brick does while a program is loaded: it answers each packet and keeps the program."""
 

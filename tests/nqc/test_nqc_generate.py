@@ -169,9 +169,6 @@ def test_the_map_says_what_each_number_means(workshop: Workshop) -> None:
     assert rows[11]["exogenous"] and rows[11]["arguments"] == ["right"]
 
 
-# ---- stubs, and files that a person has edited
-
-
 def test_missing_behaviours_get_stubs_of_the_right_form(workshop: Workshop) -> None:
     workshop.write("robot.nqc", "void look() { Wait(1); }\n")
     generated = workshop.generate(ROBOT)
@@ -245,9 +242,6 @@ def test_a_folder_that_cannot_be_made_is_a_user_error(workshop: Workshop) -> Non
         workshop.generate(ROBOT)
 
 
-# ---- what the files must not do
-
-
 def test_an_event_that_nothing_reports_is_a_warning(workshop: Workshop) -> None:
     workshop.write("robot.nqc", BEHAVIOURS.replace("golc_report(EXOG_arrived); ", ""))
     assert workshop.generate(ROBOT)
@@ -281,8 +275,6 @@ def test_the_timer_of_the_control_program_is_not_to_be_used(workshop: Workshop) 
     assert workshop.generate(ROBOT)
     assert [(found.code, found.span.text) for found in workshop.findings] == [(Code.NQC_BEHAVIOUR, "ClearTimer(3")]
 
-
-# ---- a file with Legolog's own hooks
 
 HOOKS = """\
 domain hooks

@@ -146,8 +146,6 @@ def test_set_range_moves_every_message(workshop: Workshop) -> None:
     assert (wire.action_base, wire.value_base, wire.panic, wire.more_time) == (160, 192, 208, 213)
 
 
-# ---- properties
-
 VALUES = st.one_of(
     st.builds(lambda low, size: Interval(low, low + size), st.integers(-50, 50), st.integers(0, 8)),
     st.just(BOOL),
@@ -195,9 +193,6 @@ def test_decode_is_the_inverse_of_encode_and_no_number_is_taken_twice(made: tupl
             assert actions.decode(number) == (entry.action, args)
             assert actions.encode(entry.action, args) == number
             assert actions.handles(entry.action, args)
-
-
-# ---- findings
 
 
 def brick(*bindings: Binding, senses: Type | None = None) -> list[Code]:

@@ -91,9 +91,6 @@ def test_the_tones_compile(workshop: Workshop) -> None:
     assert loud.image.size == quiet + 8
 
 
-# ---- errors of nqc
-
-
 def test_an_error_is_shown_at_its_place_in_the_users_file(workshop: Workshop) -> None:
     (error,) = refused(workshop, GO + "void f()\n{\n\tspeed = 3 + unknown;\n}\n")[:1]
     assert error.code is Code.NQC_REFUSED
@@ -143,9 +140,6 @@ def test_a_compiler_that_fails_is_a_device_error(workshop: Workshop, monkeypatch
     monkeypatch.setenv("PATH", f"{tools}:/bin:/usr/bin")
     with pytest.raises(DeviceError, match="exit code 7"):
         workshop.compile(ROBOT)
-
-
-# ---- limits
 
 
 def test_too_many_tasks_are_found_before_compiling(workshop: Workshop) -> None:
@@ -210,9 +204,6 @@ def test_what_is_exactly_full_is_allowed(workshop: Workshop) -> None:
 
 def test_the_variables_of_the_event_loop_are_counted_right() -> None:
     assert sum(line.startswith("int golc_") for line in control().splitlines()) == LOOP_VARIABLES
-
-
-# ---- the words of nqc
 
 
 def refuses(folder: Path, word: str) -> bool:

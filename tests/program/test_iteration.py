@@ -10,9 +10,6 @@ import pytest
 Start = Callable[..., Any]
 
 
-# ---- for
-
-
 def test_for_does_its_block_once_for_each_value_in_order(start: Start) -> None:
     program = start("""
         for n: digit:
@@ -87,9 +84,6 @@ def test_a_for_of_a_million_turns_is_not_written_out(start: Start) -> None:
     assert program.machine.program.live_nodes < 20
 
 
-# ---- star at most
-
-
 def test_a_bounded_star_stops_or_goes_on_until_its_bound(start: Start) -> None:
     program = start("""
         star at most 2:
@@ -129,9 +123,6 @@ def test_every_round_of_a_bounded_star_is_finished_before_the_next(start: Start)
     assert program.take().take().labels() == ["a"]
 
 
-# ---- together star
-
-
 def test_copies_are_begun_one_after_the_other_and_run_beside_each_other(start: Start) -> None:
     program = start("""
         together star:
@@ -164,9 +155,6 @@ def test_concurrent_iteration_that_may_end_ends(start: Start) -> None:
         b
     """)
     assert program.labels() == ["b", "a"]
-
-
-# ---- guard
 
 
 def test_a_guard_lets_its_block_step_while_the_condition_holds(start: Start) -> None:

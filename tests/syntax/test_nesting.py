@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from golc.diagnostics import Code, Findings, Source
+from golc.diagnostics import Code, Findings, Source, Span
+from golc.syntax.failure import MOST_KEPT, Failure, read
 from golc.syntax.parse import parse_expression, parse_file
 
 DEEP = {
@@ -61,6 +62,17 @@ def test_a_million_brackets(text: str) -> None:
     parse_file(Source("t", f"domain d\nfluent f = {text}\n"), findings)
 
     assert [d.code for d in findings.diagnostics] == [Code.NESTING]
+
+
+def test_the_parsers_stacks_of_a_long_line_are_kept_only_in_part() -> None:
+    text = "fluent f = " + "true implies " * 2000 + "$\n"
+    failed = read(Span(Source("t", text), 0, len(text)), "declaration", text)
+
+    assert isinstance(failed, Failure)
+    assert failed.place == text.index("$")
+    assert len(failed.stack) > 2000
+    assert sum(map(len, failed.stacks)) <= MOST_KEPT < sum(range(4000)) / 2
+    assert len(failed.stacks) < len(failed.line)
 
 
 def test_brackets_in_strings_and_comments_are_not_nested() -> None:

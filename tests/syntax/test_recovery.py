@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from golc.diagnostics import Code, Findings, Source
@@ -179,3 +181,26 @@ def test_a_file_of_another_language_is_one_mistake() -> None:
     text = "void go() { Wait(1); }\n\ntask watch() {\n    go();\n}\n\nint n;\n"
     message = "the domain line is missing, and nothing in the file begins as a declaration does"
     assert findings_of(text) == [(1, 1, Code.DOMAIN, message)]
+
+
+def test_what_is_passed_over_has_no_name_of_the_file() -> None:
+    text = "domain d\nfluent unread = true\nproc p:\n    test not @\n    test unread_ or @\n"
+    findings = Findings()
+    file = parse_file(Source("t", text), findings)
+
+    assert len(findings.diagnostics) == 2
+    assert file is not None
+    assert re.findall(r"'(unread_*)'", str(file.declarations[-1])) == ["unread__", "unread___"]
+
+
+def test_nothing_is_said_of_what_stands_for_what_is_passed_over() -> None:
+    assert findings_of("domain d\nscenario quiet:\n    test poss(turn and served\ndevice:\n") == [
+        (3, 5, Code.SYNTAX, "`test` does not fit here")
+    ]
+
+
+def test_a_carriage_return_is_not_passed_over() -> None:
+    file = parse_file(Source("t", "domain d\r\nscenario s:\r\n    test a\r\n    expect b\r\n"), Findings())
+
+    assert file is not None
+    assert [span.text for span in file.unread] == ["    test a"]

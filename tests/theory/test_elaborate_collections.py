@@ -68,9 +68,6 @@ def one(value: int) -> Literal:
     return Literal(value, type=INT)
 
 
-# ---- sets and lists
-
-
 def test_elements_written_out_have_a_type_in_common(term: Build) -> None:
     assert term("[at, 9]") == Display((AT, one(9)), type=Collection("list", INT))
     red = Literal("red", type=COLOUR)
@@ -222,9 +219,6 @@ def test_what_makes_no_sense_of_a_declaration(found: Build, declaration: str, me
     assert line.split(" ", 2)[2] == message
 
 
-# ---- real numbers
-
-
 def test_a_real_number_is_exact(term: Build) -> None:
     assert term("0.1") == Literal(Fraction(1, 10), type=REAL)
     assert term("2.0") == Literal(2, type=REAL)
@@ -262,9 +256,6 @@ def test_a_real_number_is_no_integer(finding: Build, text: str, message: str) ->
     assert finding(text) == message
 
 
-# ---- strings
-
-
 def test_a_message_is_a_string(term: Build) -> None:
     assert term('"two {{words}}"') == Literal("two {words}", type=STRING)
     assert term('"at {at}, {stops}"') == Text(("at ", AT, ", ", ALL_STOPS), type=STRING)
@@ -286,9 +277,6 @@ def test_a_message_is_a_string(term: Build) -> None:
 )
 def test_a_string_is_only_compared_and_shown(finding: Build, text: str, message: str) -> None:
     assert finding(text) == message
-
-
-# ---- where they may stand
 
 
 def test_parameters_of_all_but_fluents_may_be_of_any_type(theory: Build) -> None:

@@ -121,8 +121,6 @@ def test_one_mistake_is_one_finding_though_later_lines_look_at_earlier_ones(foun
     assert len(found(f"{LAMPS}axiom lit(f):\n{lines}    otherwise unchanged\n")) == 1
 
 
-# ---- the same as equivalent clauses
-
 BASE = """domain trial
 type t = 0..2
 fluent big(f: t): t = f

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 
-from golc.embed.names import python_name
 from golc.embed.printing.functions import called, loop, word_call
 from golc.embed.printing.layout import INDENT, Brackets, Doc, Joined
 from golc.embed.printing.names import Names
@@ -21,6 +20,7 @@ from golc.embed.printing.terms import (
     type_doc,
 )
 from golc.syntax import tree as ast
+from golc.syntax.python_names import python_name
 
 
 def action_body(names: Names, clauses: Iterable[ast.Clause]) -> Iterator[str]:

@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from golc.embed.names import python_name
 from golc.embed.printing.clauses import action_body, after, axiom_body, device_body, scenario_body, table_doc
 from golc.embed.printing.evaluated import keeps_type, keeps_value
 from golc.embed.printing.functions import ELLIPSIS, decorator_doc, function_lines, parameter_docs, returned
@@ -16,6 +15,7 @@ from golc.embed.printing.programs import block
 from golc.embed.printing.strings import quoted
 from golc.embed.printing.terms import call_doc, keyword, optional, term_doc, type_doc
 from golc.syntax import tree as ast
+from golc.syntax.python_names import python_name
 from golc.syntax.walk import descendants
 
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from golc.embed.names import golc_name, python_name
 from golc.embed.printing.layout import INDENT, Brackets, Doc, Joined, laid_out, laid_out_value
 from golc.embed.printing.names import Names
 from golc.embed.printing.strings import quoted
 from golc.embed.printing.terms import call_doc, keyword, maybe, optional, source_doc, term_doc, type_doc
 from golc.syntax import tree as ast
+from golc.syntax.python_names import golc_name, python_name
 
 ELLIPSIS = "..."
 """The body of a function that says nothing more, which stands in the line of its head."""

@@ -6,8 +6,8 @@ from collections import Counter
 from collections.abc import Container, Iterable, Iterator
 from contextlib import contextmanager
 
-from golc.embed.names import python_name
 from golc.syntax import tree as ast
+from golc.syntax.python_names import python_name
 from golc.syntax.walk import children, descendants
 
 KINDS: dict[type[ast.Node], str] = {

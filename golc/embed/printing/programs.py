@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from golc.embed.names import python_name
 from golc.embed.printing.functions import called, loop, with_head, word_call
 from golc.embed.printing.layout import INDENT, Doc, laid_out, laid_out_value
 from golc.embed.printing.names import Names
 from golc.embed.printing.strings import quoted
 from golc.embed.printing.terms import call_doc, keyword, maybe, optional, program_doc, term_doc
 from golc.syntax import tree as ast
+from golc.syntax.python_names import python_name
 
 
 def block(names: Names, body: ast.Block, indent: int) -> Iterator[str]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable
 from decimal import Decimal
 
-from golc.embed.names import python_name
 from golc.embed.printing.layout import Brackets, Chain, Doc, Joined, one_line
 from golc.embed.printing.names import Names
 from golc.embed.printing.strings import message_text, quoted
 from golc.syntax import tree as ast
+from golc.syntax.python_names import python_name
 
 CONDITIONAL, OR, AND, NOT, COMPARISON, UNION, SUM, PRODUCT, NEGATION, ATOM = range(10)
 """How tightly the forms of Python bind, the loosest first."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from golc.diagnostics import Span
 from golc.embed.errors import Refused, meaningless
-from golc.embed.names import golc_name, new_name
+from golc.embed.names import new_name
 from golc.embed.reading.arguments import Arguments
 from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.types import (
@@ -24,6 +24,7 @@ from golc.embed.types import (
     union,
 )
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 
 
 class Annotations(Arguments):

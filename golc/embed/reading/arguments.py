@@ -8,7 +8,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Iterator, Sequence
 from typing import Any
 
-from golc.diagnostics import Code, Diagnostic, Span
+from golc.diagnostics import Code, Diagnostic, Span, counted
 from golc.embed.errors import Refused, refused
 from golc.embed.reading.evaluate import Evaluator
 from golc.embed.reading.functions import Function
@@ -64,7 +64,7 @@ class Arguments(ABC):
                 raise refused(Code.ARITY, f"`{ast.unparse(node.func)}` takes no `{word.arg}=`", self.span(word), help_)
         given = self.spread(node.args)
         if len(given) != count:
-            takes = f"{count} argument{'s' * (count != 1)}" if count else "no arguments"
+            takes = counted(count, "argument") if count else "no arguments"
             message = f"`{ast.unparse(node.func)}` takes {takes} by place, not {len(given)}"
             by_name = f"it takes {known}" if known and len(given) > count else None
             raise refused(Code.ARITY, message, self.span(node), by_name)

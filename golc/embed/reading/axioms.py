@@ -9,10 +9,11 @@ from typing import Any
 from golc.diagnostics import Span
 from golc.embed import words
 from golc.embed.errors import meaningless
-from golc.embed.names import golc_name, new_name
+from golc.embed.names import new_name
 from golc.embed.reading.lines import Lines
 from golc.embed.terms import Named
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 
 
 class Axioms(Lines):

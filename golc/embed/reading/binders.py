@@ -10,9 +10,10 @@ from typing import Any
 from golc.diagnostics import counted
 from golc.embed import words
 from golc.embed.errors import meaningless
-from golc.embed.names import golc_name, new_name
+from golc.embed.names import new_name
 from golc.embed.reading.annotations import Annotations
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 
 
 class Binders(Annotations):

@@ -10,16 +10,18 @@ from typing import Any
 from golc.diagnostics import Span
 from golc.embed import words
 from golc.embed.errors import meaningless
-from golc.embed.names import golc_name, new_name
+from golc.embed.names import new_name
 from golc.embed.reading.bodies import Bodies
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
+from golc.theory.statements import Strategy
 
 _BRANCHING: Mapping[words.Word, Any] = {
     words.choose: tree.Choose,
     words.together: tree.Together,
     words.prefer: tree.Prefer,
 }
-MODES = ("first", "shortest", "cheapest")
+MODES = tuple(strategy.value for strategy in Strategy)
 
 
 class Blocks(Bodies):

@@ -10,11 +10,11 @@ from typing import Any
 from golc.diagnostics import Span
 from golc.embed import words
 from golc.embed.errors import Refused, meaningless
-from golc.embed.names import golc_name
 from golc.embed.reading.binders import Binders
 from golc.embed.terms import Named, in_order
 from golc.embed.words import Word
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 
 _QUANTIFIERS: Mapping[object, Any] = {
     builtins.any: "exists",

@@ -9,11 +9,12 @@ from typing import Any
 from golc.diagnostics import Code
 from golc.embed import words
 from golc.embed.errors import meaningless, refused
-from golc.embed.names import new_name, python_name
+from golc.embed.names import new_name
 from golc.embed.reading.lines import Lines
 from golc.embed.reading.tables import Tables
 from golc.embed.terms import Named
 from golc.syntax import tree
+from golc.syntax.python_names import python_name
 
 
 class Devices(Lines, Tables):

@@ -7,16 +7,16 @@ from collections.abc import Callable, Iterable, Iterator
 from types import BuiltinFunctionType
 
 from golc.diagnostics import Code, Label, UserError
-from golc.embed.asked import translating
+from golc.embed.asked import looked_up, translating
 from golc.embed.cures import cure
 from golc.embed.errors import meaningless, refused
-from golc.embed.names import golc_name
 from golc.embed.places import code_span, innermost, source_of
 from golc.embed.reading.functions import Function
 from golc.embed.terms import Term, variable
 from golc.embed.types import TypeHandle, TypeObject, enum, interval, is_built_in, optional, symbols, symbols_of, union
 from golc.embed.values import is_unsettled
 from golc.embed.words import Value, Word
+from golc.syntax.python_names import golc_name
 from golc.theory.python_file import failure
 from golc.theory.suggest import did_you_mean
 
@@ -106,8 +106,7 @@ class Evaluator:
         help_ = "make it a static, whose value is a table: `start = theory.static(…)`"
         if any(map(is_unsettled, values)):
             help_ = "go through the list itself, `for x in …`, or declare one fluent with a parameter for all of it"
-        message = "Python looks a term up at once, before there is a situation"
-        raise meaningless(message, self.function.place(node), help_)
+        raise looked_up(self.function.place(node), help_)
 
     def _called(self, node: ast.Call) -> object:
         called = self(node.func)

@@ -11,22 +11,16 @@ from typing import Any, Literal
 from golc.diagnostics import Code, Span
 from golc.embed import words
 from golc.embed.errors import Refused, meaningless, refused
-from golc.embed.names import golc_name
 from golc.embed.reading.binders import chain
 from golc.embed.reading.calls import Calls
 from golc.embed.reading.evaluate import NOT_PYTHON
-from golc.embed.reading.refusals import EXPRESSIONS, OPERATORS
+from golc.embed.reading.refusals import EXPRESSIONS, IDENTITY, OPERATORS
 from golc.embed.terms import PROGRAMS, Named, Variable, plain_names
-from golc.embed.types import (
-    BUILT_IN,
-    TypeForm,
-    TypeHandle,
-    interval,
-    is_built_in,
-)
+from golc.embed.types import BUILT_IN, TypeForm, TypeHandle, interval, is_built_in
 from golc.embed.values import expr
 from golc.embed.words import Value, Word
 from golc.syntax import tree
+from golc.syntax.python_names import golc_name
 
 _ARITHMETIC: Mapping[type[ast.operator], Any] = {
     ast.Add: "+",
@@ -221,8 +215,7 @@ class Expressions(Calls):
         for left, op, right in zip(sides, node.ops, node.comparators, strict=False):
             if isinstance(op, (ast.Is, ast.IsNot)):
                 sign = "!=" if isinstance(op, ast.IsNot) else "=="
-                message = "`is` asks for one object of Python, not for equal values"
-                raise meaningless(message, self.span(node), f"write `{sign}`")
+                raise meaningless(IDENTITY, self.span(node), f"write `{sign}`")
             membership = isinstance(op, (ast.In, ast.NotIn))
             first, second = self.expr(left), self._range(right) if membership else self.expr(right)
             span = self.span(node) if len(node.ops) == 1 else first.span.to(second.span)

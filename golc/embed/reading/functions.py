@@ -15,9 +15,9 @@ from typing import Any
 
 from golc.diagnostics import Code, Label, Source, Span
 from golc.embed.errors import meaningless, refused
-from golc.embed.names import golc_name
 from golc.embed.places import caller, calling_frame, offset, source_of, span_of, tree_of
 from golc.embed.values import Meaningful
+from golc.syntax.python_names import golc_name
 from golc.theory.suggest import did_you_mean
 
 ABSENT = object()

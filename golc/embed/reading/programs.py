@@ -95,26 +95,21 @@ class Programs(Blocks):
         return tree.Wait(span=span) if duration is None else tree.WaitTime(self.expr(duration), span=span)
 
     def _if(self, node: ast.If, span: Span) -> Iterator[tree.Statement]:
-        decided = self._decided(node.test)
-        if decided is not NOT_PYTHON:
-            chosen = node.body if decided else node.orelse
-            if chosen:
-                yield from self.block(chosen).statements
-            return
-        branches = [(self.expr(node.test), self.block(node.body))]
-        rest = node.orelse
-        while len(rest) == 1 and isinstance(rest[0], ast.If) and self._is_elif(rest[0]):
-            node = rest[0]
-            decided = self._decided(node.test)
-            if decided is not NOT_PYTHON and not decided:
-                rest = node.orelse
-                continue
-            if decided is not NOT_PYTHON:
-                rest = node.body
+        branches: list[tuple[tree.Expr, tree.Block]] = []
+        rest: list[ast.stmt] = [node]
+        while len(rest) == 1 and isinstance(part := rest[0], ast.If) and (part is node or self._is_elif(part)):
+            decided = self._decided(part.test)
+            if decided is True:
+                rest = part.body
                 break
-            branches.append((self.expr(node.test), self.block(node.body)))
-            rest = node.orelse
-        yield tree.If(tuple(branches), self.block(rest) if rest else None, span=span)
+            if decided is NOT_PYTHON:
+                span = span if branches else self.span(part)
+                branches.append((self.expr(part.test), self.block(part.body)))
+            rest = part.orelse
+        if branches:
+            yield tree.If(tuple(branches), self.block(rest) if rest else None, span=span)
+        elif rest:
+            yield from self.block(rest).statements
 
     def _decided(self, node: ast.expr) -> object:
         """The truth of a condition of Python alone, which chooses between two programs."""

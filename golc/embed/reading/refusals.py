@@ -5,6 +5,8 @@ from __future__ import annotations
 import ast
 from collections.abc import Mapping
 
+IDENTITY = "`is` asks for one object of Python, not for equal values"
+
 STATEMENTS: Mapping[type[ast.stmt], tuple[str, str | None]] = {
     ast.Return: ("a procedure has no value, and no way out but its end", "put what may be left out under an `if`"),
     ast.Try: ("a program catches nothing", "write `with choose():` for another way, `with guard(φ):` to stop"),

@@ -1,4 +1,4 @@
-"""Hints for lines and blocks: indentation, colons, branches, brackets."""
+"""Hints for lines and blocks: indentation, colons, branches."""
 
 from __future__ import annotations
 
@@ -6,11 +6,12 @@ import re
 
 from lark import Token
 
-from golc.diagnostics import Code, Diagnostic, Fix, Label, Span
-from golc.syntax.failure import LAYOUT, Failure, Hint
-from golc.syntax.hints.fixes import block_below, end_of_line, indentation, insertion, line_end, removal, spaces_for_tabs
-from golc.syntax.layout import CLOSING, LayoutError
+from golc.diagnostics import Code, Diagnostic, Fix, Span
+from golc.syntax.failure import Failure, Hint
+from golc.syntax.hints.fixes import block_below, end_of_line, indentation, insertion, line_end, spaces_for_tabs
+from golc.syntax.layout import LayoutError
 from golc.syntax.spelling import closest
+from golc.syntax.terminals import BRANCHING
 from golc.syntax.words import BRANCHES, CLAUSES, STATEMENTS
 
 _HEADS = """
@@ -20,8 +21,6 @@ interrupts on guard search within
 
 HEADS = frozenset(_HEADS.split())
 """The words that begin a line with a block below it."""
-
-CLOSING_OF = {"LPAR": "RPAR", "LSQB": "RSQB", "LBRACE": "RBRACE"}
 
 
 def wrong_layout(part: Span, error: LayoutError) -> Diagnostic:
@@ -115,43 +114,46 @@ def unexpected_indent(failure: Failure) -> Diagnostic | None:
     )
 
 
-def lost_branch(failure: Failure) -> Diagnostic | None:
-    """``else`` and the like at the beginning of a line that they do not go on with; ``choose`` without ``or``."""
+def bare_over(failure: Failure) -> Diagnostic | None:
+    """``over`` without its colon."""
     word = _branch_word(failure)
-    if word is not None and word == "over" and "_OVER" in failure.accepts:
-        span = failure.at((word.end_pos or 0), (word.end_pos or 0))
-        message, help = "the colon behind this `over` is missing", "end the line with `:`"
-        return failure.finding(Code.MISSING, message, span, help, fix=insertion(span, ":"))
-    if word is not None:
-        return failure.finding(
-            Code.INDENTATION,
-            f"this `{word}` belongs to no `{BRANCHES[word]}`",
-            failure.span(word),
-            help=f"`{word}` stands in the column of its `{BRANCHES[word]}`, behind that one's block",
-        )
-    for accepted, branch in (("OR", "or"), ("AND", "and"), ("_OVER", "over")):
-        if failure.accepts == {accepted}:
-            if failure.kind == "NAME" and closest(str(failure.bad), [branch]) is not None:
-                return failure.finding(
-                    Code.SYNTAX, f"`{failure.bad}` is no word here", help=f"did you mean `{branch}`?"
-                )
-            return failure.finding(
-                Code.MISSING,
-                f"this `{BRANCHES[branch]}` has one branch only",
-                failure.gap(),
-                f"add `{branch}:` with a block, in the column of `{BRANCHES[branch]}`",
-            )
+    if word is None or word != "over" or "_OVER" not in failure.accepts:
+        return None
+    span = failure.at((word.end_pos or 0), (word.end_pos or 0))
+    message, help = "the colon behind this `over` is missing", "end the line with `:`"
+    return failure.finding(Code.MISSING, message, span, help, fix=insertion(span, ":"))
+
+
+def lost_branch(failure: Failure) -> Diagnostic | None:
+    """``else`` and the like at the beginning of a line that they do not go on with."""
+    word = _branch_word(failure)
+    if word is None:
+        return None
+    message, statement = f"this `{word}` belongs to no `{BRANCHES[word]}`", BRANCHES[word]
+    help = f"`{word}` stands in the column of its `{statement}`, behind that one's block"
+    return failure.finding(Code.INDENTATION, message, failure.span(word), help)
+
+
+def only_branch(failure: Failure) -> Diagnostic | None:
+    """``choose`` without ``or``."""
+    branch = next((word for terminal, word in BRANCHING.items() if failure.accepts == {terminal}), None)
+    if branch is None:
+        return None
+    if failure.kind == "NAME" and closest(str(failure.bad), [branch]) is not None:
+        return failure.finding(Code.SYNTAX, f"`{failure.bad}` is no word here", help=f"did you mean `{branch}`?")
+    message = f"this `{BRANCHES[branch]}` has one branch only"
+    help = f"add `{branch}:` with a block, in the column of `{BRANCHES[branch]}`"
+    return failure.finding(Code.MISSING, message, failure.gap(), help)
+
+
+def end_of_axiom(failure: Failure) -> Diagnostic | None:
+    """An axiom without ``otherwise unchanged``, or with a line behind it."""
     if failure.accepts == {"_DEDENT"} and failure.previous == "unchanged":
         message = "`otherwise unchanged` is the last line of an axiom"
         return failure.finding(Code.SYNTAX, message, failure.span(failure.previous), "move it to the end")
     if "OTHERWISE" in failure.accepts and failure.kind in ("_DEDENT", "$END"):
-        return failure.finding(
-            Code.MISSING,
-            "the last line of this `axiom` is missing",
-            failure.gap(),
-            "end it with `otherwise unchanged`",
-            fix=_otherwise(failure),
-        )
+        message, help = "the last line of this `axiom` is missing", "end it with `otherwise unchanged`"
+        return failure.finding(Code.MISSING, message, failure.gap(), help, fix=_otherwise(failure))
     return None
 
 
@@ -170,82 +172,13 @@ def _branch_word(failure: Failure) -> Token | None:
     return None
 
 
-def wrong_bracket(failure: Failure) -> Diagnostic | None:
-    """A bracket that closes nothing, or another one."""
-    if failure.kind not in CLOSING:
-        return None
-    sign = CLOSING[failure.kind]
-    if not failure.brackets:
-        return failure.finding(Code.MISSING, f"this `{sign}` closes nothing", help="remove it, or open it before")
-    opening = failure.brackets[-1]
-    if CLOSING_OF[opening.type] == failure.kind:
-        return None
-    return failure.finding(
-        Code.MISSING,
-        f"this `{sign}` does not close `{opening}`",
-        help=f"write `{CLOSING[CLOSING_OF[opening.type]]}` first",
-        labels=(Label(failure.span(opening), "opened here"),),
-    )
-
-
-def unclosed_bracket(failure: Failure) -> Diagnostic | None:
-    """A bracket that is still open where another line begins, or where the text ends."""
-    if not failure.brackets:
-        return None
-    opening = failure.brackets[-1]
-    last = _last_before_next_line(failure, opening)
-    if last is None:
-        return None
-    return not_closed(failure, opening, last.end_pos or 0)
-
-
-def not_closed(failure: Failure, opening: Token, place: int) -> Diagnostic:
-    """The finding that a bracket should have been closed at a place."""
-    sign = CLOSING[CLOSING_OF[opening.type]]
-    return failure.finding(
-        Code.MISSING,
-        f"the `{sign}` that closes `{opening}` is missing",
-        failure.at(place, place),
-        f"write `{sign}`",
-        labels=(Label(failure.span(opening), "opened here"),),
-    )
-
-
-def _last_before_next_line(failure: Failure, opening: Token) -> Token | None:
-    """The last token before a line inside the bracket that begins like one of its own, or before the end."""
-    inside = [token for token in failure.tokens if (token.start_pos or 0) >= (opening.start_pos or 0)]
-    following = [*inside[1:], failure.bad] if failure.bad is not None else inside[1:]
-    for before, token in zip(inside, following, strict=False):
-        if token.type in LAYOUT or token.type == "$END":
-            return before
-        if token.line != before.end_line and str(token) in STATEMENTS | CLAUSES.keys():
-            return before
-    closes = CLOSING_OF[opening.type] in failure.accepts
-    if failure.kind == "ASSIGN" and not (failure.line[0] in ("causes", "after", "define") and _first_assign(failure)):
-        return None
-    if closes and (failure.kind in ("COLON", "ASSIGN", "WHEN", "WHERE", *CLOSING) or failure.begins_line()):
-        return failure.previous
-    return None
-
-
-def _first_assign(failure: Failure) -> bool:
-    return all(token.type != "ASSIGN" for token in failure.line)
-
-
-def empty_brackets(failure: Failure) -> Diagnostic | None:
-    """``p()``."""
-    if failure.kind != "RPAR" or failure.previous is None or failure.previous.type != "LPAR":
-        return None
-    span = failure.span(failure.previous).to(failure.here())
-    message, help = "empty parentheses are left out", "write the name alone"
-    return failure.finding(Code.SYNTAX, message, span, help, fix=removal(span))
-
-
-BRACKETS: tuple[Hint, ...] = (empty_brackets, wrong_bracket, unclosed_bracket)
-LINES: tuple[Hint, ...] = (
+HINTS: tuple[Hint, ...] = (
     missing_block,
     block_on_the_line,
     missing_colon,
     unexpected_indent,
+    bare_over,
     lost_branch,
+    only_branch,
+    end_of_axiom,
 )

@@ -10,7 +10,7 @@ from golc.syntax.failure import Failure, Hint
 
 def bare_choices(failure: Failure) -> Diagnostic | None:
     """``one of a, b``, ``one of (a, b)``, ``one of 1..3``."""
-    if ("one", "of") not in pairwise(map(str, failure.line)) or {"{", "["} & {*map(str, failure.brackets)}:
+    if ("one", "of") not in pairwise(failure.words) or {"{", "["} & {*map(str, failure.brackets)}:
         return None
     if failure.kind != "COMMA" and not failure.rest.startswith(".."):
         return None

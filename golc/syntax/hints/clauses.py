@@ -33,7 +33,7 @@ PARAMETERLESS = {
 }
 """Declarations that have no parameters, and what helps."""
 
-CLAUSES = {
+OTHER_CLAUSES = {
     **dict.fromkeys(("possible", "when", "if", "pre", "precondition", "requires", "needs", "where"), "poss"),
     **dict.fromkeys(("effect", "effects", "makes", "sets", "post", "then"), "causes"),
 }
@@ -42,7 +42,7 @@ CLAUSES = {
 
 def colon_behind_word(failure: Failure) -> Diagnostic | None:
     """``poss: φ``."""
-    match _words(failure), failure.kind:
+    match failure.words, failure.kind:
         case [word], "COLON" if word in WITHOUT_COLON and "COLON" not in failure.accepts:
             message = f"behind `{word}` stands {WITHOUT_COLON[word]}, without a colon"
             return failure.finding(Code.SYNTAX, message, help="remove the colon", fix=removal(failure.here()))
@@ -51,9 +51,9 @@ def colon_behind_word(failure: Failure) -> Diagnostic | None:
 
 def other_word(failure: Failure) -> Diagnostic | None:
     """Words that begin a part elsewhere, where golc has another one."""
-    match _words(failure), str(failure.bad or ""):
-        case [], word if word in CLAUSES and "POSS" in failure.accepts:
-            ours = CLAUSES[word]
+    match failure.words, str(failure.bad or ""):
+        case [], word if word in OTHER_CLAUSES and "POSS" in failure.accepts:
+            ours = OTHER_CLAUSES[word]
             what = "a precondition" if ours == "poss" else "an effect"
             return _replaced(failure, f"{what} begins with `{ours}`, not with `{word}`", failure.here(), ours)
         case ["exog", *_], ("by" | "via" | "at" | "of") as word if "FROM" in failure.accepts:
@@ -73,7 +73,7 @@ def _replaced(failure: Failure, message: str, span: Span, ours: str) -> Diagnost
 
 def no_parameters(failure: Failure) -> Diagnostic | None:
     """``const c(x: t) = 3``; ``axiom f(x: t)``, whose parameters have the fluent's types."""
-    match _words(failure), failure.kind:
+    match failure.words, failure.kind:
         case [kind, _], "LPAR" if kind in PARAMETERLESS:
             return failure.finding(Code.SYNTAX, f"a {kind} has no parameters", help=PARAMETERLESS[kind])
         case ["axiom", _, "(", *_], "COLON" if failure.brackets:
@@ -89,7 +89,7 @@ def no_parameters(failure: Failure) -> Diagnostic | None:
 
 def effect(failure: Failure) -> Diagnostic | None:
     """An effect without its value, as a formula, with `if`, or joined to another one."""
-    words, signs = _words(failure), [token.type for token in failure.line]
+    words, signs = failure.words, [token.type for token in failure.line]
     if not words or words[0] not in ("causes", "after"):
         return None
     if words[-1] == "when" and signs[-2] == "ASSIGN":
@@ -112,12 +112,12 @@ def effect(failure: Failure) -> Diagnostic | None:
 
 def bare_values(failure: Failure) -> Diagnostic | None:
     """``type t = a, b``, ``type t = a | b``, ``type t = (a, b)``."""
-    match _words(failure), failure.rest[:1]:
+    match failure.words, failure.rest[:1]:
         case ["type", _, "=", *_], "{" if "PLUS" in failure.accepts:
             gap = failure.gap()
             message, help = "`+` is missing between two types", "write `+`: it joins types"
             return failure.finding(Code.MISSING, message, gap, help, fix=sign_at(gap, "+"))
-        case ["type", _, "=", *_], "," | "|" | "(" if {"{", "["}.isdisjoint(_words(failure)):
+        case ["type", _, "=", *_], "," | "|" | "(" if {"{", "["}.isdisjoint(failure.words):
             message = "the values of an enumeration stand in braces"
             return failure.finding(Code.SYNTAX, message, help="write `{a, b}`; `+` joins types")
     return None
@@ -125,7 +125,7 @@ def bare_values(failure: Failure) -> Diagnostic | None:
 
 def missing_name(failure: Failure) -> Diagnostic | None:
     """A name that is missing before a word that was then read as the name."""
-    match _words(failure), failure.kind:
+    match failure.words, failure.kind:
         case ["exog", "from"], "NAME":
             return _nameless(failure, "exog", 0)
         case ["prune", _, ":", *_], "WHEN":
@@ -156,7 +156,7 @@ def missing_end(failure: Failure) -> Diagnostic | None:
     """The last part of a line is missing."""
     if failure.kind not in LAYOUT | {"$END"}:
         return None
-    match _words(failure):
+    match failure.words:
         case ["static", name, *_] if "EQ" in failure.accepts:
             return failure.finding(Code.MISSING, f"static `{name}` has no value", failure.gap(), "add `= …` at the end")
         case ["on", *_] if {"AFTER", "WHEN"} <= failure.accepts:
@@ -170,7 +170,7 @@ def missing_end(failure: Failure) -> Diagnostic | None:
 
 def device_line(failure: Failure) -> Diagnostic | None:
     """A setting without its word or with a sign; a table without a value or a colon."""
-    match _words(failure), failure.kind:
+    match failure.words, failure.kind:
         case [name], "INT" | "REAL" if "BY" in failure.accepts:
             message, help = "a setting begins with `set`", f"write `set {name} {failure.rest}`"
             return failure.finding(Code.MISSING, message, failure.span(failure.line[0]), help)
@@ -188,7 +188,7 @@ def device_line(failure: Failure) -> Diagnostic | None:
 
 def expected_actions(failure: Failure) -> Diagnostic | None:
     """``expect actions a, b``, ``expect action [a, b]``."""
-    match _words(failure), failure.kind:
+    match failure.words, failure.kind:
         case ["expect", "actions"], "NAME":
             message = "the actions that are expected stand in brackets"
             return failure.finding(Code.SYNTAX, message, help="write `expect actions [a, b]`")
@@ -200,10 +200,6 @@ def expected_actions(failure: Failure) -> Diagnostic | None:
 
 
 VALUE = "write what belongs there"
-
-
-def _words(failure: Failure) -> list[str]:
-    return [str(token) for token in failure.line]
 
 
 def _behind(failure: Failure, place: int) -> Span:

@@ -8,18 +8,32 @@ from __future__ import annotations
 
 from golc.diagnostics import Diagnostic
 from golc.syntax.failure import Failure, Hint
-from golc.syntax.hints import blocks, choices, clauses, foreign, gaps, keywords, lines, quantifiers, signs, steps
+from golc.syntax.hints import (
+    blocks,
+    brackets,
+    choices,
+    clauses,
+    foreign,
+    gaps,
+    keywords,
+    lines,
+    quantifiers,
+    signs,
+    steps,
+    trial,
+)
 
 HINTS: tuple[Hint, ...] = (
     keywords.no_declaration,
+    trial.doubled,
     *lines.HINTS,
     quantifiers.missing_dot,
     *clauses.HINTS,
     *steps.HINTS,
     *foreign.NOTATION,
-    *blocks.BRACKETS,
+    *brackets.HINTS,
     foreign.braces,
-    *blocks.LINES,
+    *blocks.HINTS,
     lines.second_on_line,
     *foreign.CHARACTERS,
     quantifiers.missing_quantifier,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from golc.diagnostics import Code, Diagnostic
 from golc.syntax.failure import Failure, Hint
-from golc.syntax.hints.blocks import CLOSING_OF, not_closed
+from golc.syntax.hints.brackets import CLOSING_OF, not_closed
 from golc.syntax.hints.fixes import insertion, sign_at
 from golc.syntax.hints.quantifiers import QUANTIFIERS
 from golc.syntax.hints.trial import goes_on, one_token_off

@@ -10,9 +10,9 @@ from lark import Token
 from golc.diagnostics import Code, Diagnostic, Fix, Span
 from golc.syntax.failure import Failure
 from golc.syntax.hints.fixes import instead
-from golc.syntax.spelling import close, closest
+from golc.syntax.spelling import close, closest, meant_declaration
 from golc.syntax.terminals import word_of
-from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, OTHER_NAMES, STATEMENTS
+from golc.syntax.words import BRANCHES, CLAUSES, DECLARATIONS, STATEMENTS
 
 CALL = r"[A-Za-z]\w*[ \t]*(?:\([^\n]*\))?"
 """A line that may be a call."""
@@ -33,7 +33,7 @@ def no_declaration(failure: Failure) -> Diagnostic | None:
         return _prolog(failure)
     if found in CLAUSES or found in STATEMENTS or found in BRANCHES:
         return _lost_line(failure, found)
-    ours = OTHER_NAMES.get(found.lower()) or closest(found, DECLARATIONS)
+    ours = meant_declaration(found)
     if ours is not None:
         message, help, fix = (
             f"`{found}` begins no declaration",

@@ -53,7 +53,7 @@ def second_on_line(failure: Failure) -> Diagnostic | None:
 
 def missing_some(failure: Failure) -> Diagnostic | None:
     """``on x: t where φ:``."""
-    match [str(token) for token in failure.line], failure.kind:
+    match failure.words, failure.kind:
         case ["on", _, ":"], "NAME" | "INT" | "LBRACE" if _HEADER.match(failure.rest):
             gap = failure.at(failure.line[0].end_pos or 0, failure.line[0].end_pos or 0)
             message, help = "`some` is missing after `on`", "write `on some x: type where condition:`"

@@ -82,7 +82,7 @@ def comma(failure: Failure) -> Diagnostic | None:
     """``test a, b``."""
     if failure.kind != "COMMA" or "AND" not in failure.accepts:
         return None
-    around = [*map(str, failure.line), failure.rest]
+    around = [*failure.words, failure.rest]
     fix = None if any(map(LOOSE.search, around)) else instead(failure.here(), "and")
     return failure.finding(Code.SYNTAX, "a comma does not join conditions", help="write `and`", fix=fix)
 

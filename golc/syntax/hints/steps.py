@@ -7,7 +7,7 @@ from golc.syntax.failure import LAYOUT, Failure, Hint
 
 SPOKEN = frozenset({"print", "echo", "write", "output", "printf", "display", "log"})
 CALLED = frozenset({"do", "run", "call", "perform", "exec", "execute", "invoke"})
-CLAUSES = frozenset({"causes", "poss", "senses", "cost", "expect", "given"})
+DECLARING = frozenset({"causes", "poss", "senses", "cost", "expect", "given"})
 
 
 def call(failure: Failure) -> Diagnostic | None:
@@ -19,7 +19,7 @@ def call(failure: Failure) -> Diagnostic | None:
         message, help = f"a message is given with `say`, not with `{word}`", 'write `say "…"`'
     elif word in CALLED and failure.kind == "NAME":
         message, help = "an action or a procedure is called by its name alone", f"remove `{word}`"
-    elif word in CLAUSES:
+    elif word in DECLARING:
         message, help = f"`{word}` belongs to a declaration, not into a program", "declare an action, and call it here"
     else:
         return None
@@ -28,10 +28,9 @@ def call(failure: Failure) -> Diagnostic | None:
 
 def wait(failure: Failure) -> Diagnostic | None:
     """``wait φ``, ``wait for φ``."""
-    words = [str(token) for token in failure.line]
-    if words[:1] != ["wait"] or len(words) < 2:
+    if failure.words[:1] != ["wait"] or len(failure.words) < 2:
         return None
-    if words[1] == "for":
+    if failure.words[1] == "for":
         span = failure.span(failure.line[1])
         return failure.finding(
             Code.FOREIGN, "what is waited for stands behind `until`, not `for`", span, "write `until`"
@@ -45,7 +44,7 @@ def wait(failure: Failure) -> Diagnostic | None:
 
 def each(failure: Failure) -> Diagnostic | None:
     """``for each x: t``, ``for x of l``."""
-    match [str(token) for token in failure.line], str(failure.bad or ""):
+    match failure.words, str(failure.bad or ""):
         case [("for" | "pick") as word, ("each" | "all" | "every" | "any") as more], _ if failure.kind == "NAME":
             span = failure.span(failure.line[1])
             return failure.finding(Code.FOREIGN, f"`{word} {more}` is `{word}`", span, f"remove `{more}`")

@@ -14,6 +14,7 @@ from golc.syntax.hints.fixes import sign_at, without
 from golc.syntax.layout import CLOSING, OPENING, LayoutError
 from golc.syntax.parser import parser
 from golc.syntax.terminals import TITLES, title, titles, word_of
+from golc.syntax.words import RESERVED
 
 SIGNS = ("COLON", "EQ", "ASSIGN", "COMMA", "RPAR", "RSQB", "RBRACE", "LPAR", "LBRACE", "DOT", "RANGE")
 """The signs that people forget, the likeliest first."""
@@ -25,6 +26,16 @@ CERTAIN = frozenset({"COLON", "EQ", "ASSIGN", "COMMA", "BY", "FROM", "WHERE"})
 """What can stand nowhere else: of a bracket nobody knows where it was to be."""
 
 
+def doubled(failure: Failure) -> Diagnostic | None:
+    """A word of the language right behind itself, perhaps read as a name: seldom is something missing between them."""
+    bad, line = failure.bad, failure.line
+    if len(line) > 1 and line[-1].type == "NAME" != line[-2].type and str(line[-1]) == str(line[-2]):
+        return _written_twice(failure, line[-1])
+    if bad is None or str(failure.previous) != str(bad) or word_of(bad.type) is None or "_NL" in failure.accepts:
+        return None
+    return _written_twice(failure, bad) if _goes_on(failure, None, failure.rest[len(bad) :]) else None
+
+
 def one_token_off(failure: Failure) -> Diagnostic | None:
     """Something forgotten before the bad token, or the bad token one too many."""
     if failure.bad is None:
@@ -32,8 +43,7 @@ def one_token_off(failure: Failure) -> Diagnostic | None:
     behind = failure.rest[len(failure.bad) :]
     twice = _twice(failure, behind)
     if twice is not None:
-        fix = Fix(f"remove one `{twice}`", (without(failure.span(twice)),))
-        return failure.finding(Code.SYNTAX, f"`{twice}` is written twice", failure.span(twice), "remove one", fix=fix)
+        return _written_twice(failure, twice)
     forgotten = _forgotten(failure)
     if forgotten:
         what = titles(forgotten) or "a word"
@@ -46,6 +56,11 @@ def one_token_off(failure: Failure) -> Diagnostic | None:
     if failure.kind not in LAYOUT | {"$END"} and _goes_on(failure, None, behind):
         return failure.finding(Code.SYNTAX, f"`{failure.bad}` is too much here", help="remove it")
     return None
+
+
+def _written_twice(failure: Failure, twice: Token) -> Diagnostic:
+    fix = Fix(f"remove one `{twice}`", (without(failure.span(twice)),))
+    return failure.finding(Code.SYNTAX, f"`{twice}` is written twice", failure.span(twice), "remove one", fix=fix)
 
 
 def _twice(failure: Failure, behind: str) -> Token | None:
@@ -67,7 +82,9 @@ def _written(place: Span, forgotten: list[str]) -> Fix | None:
 
 def _forgotten(failure: Failure) -> list[str]:
     """The terminals of which one lets the line be read: a sign, or words."""
-    for sign in SIGNS:
+    # A colon would make a type of a word that begins a value, such as `false`.
+    value = "EQ" in failure.accepts and str(failure.bad) in RESERVED - {"set", "list"}
+    for sign in SIGNS[value:]:
         if sign in failure.accepts and goes_on(failure, sign):
             return [sign]
     words = sorted(terminal for terminal in failure.accepts if word_of(terminal) is not None)
@@ -87,7 +104,7 @@ def _goes_on(failure: Failure, inserted: str | None, rest: str) -> bool:
     """Whether, after one more terminal or none, the parser can read the rest of a line, with its end if it has one."""
     frontend: Any = parser().parser
     thread = LexerThread.from_text(frontend.lexer, rest.strip())
-    state: Any = ParserState(without_trees(failure.start), thread, list(failure.stacks[-1]), [])
+    state: Any = ParserState(without_trees(failure.start), thread, list(failure.stack), [])
     depth = len(failure.brackets) + _depth(inserted)
     lex: Any = thread.lex
     try:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field, replace
 
 from golc.diagnostics import Diagnostic, Span
@@ -11,9 +12,12 @@ from golc.syntax.layout import CLOSING, OPENING, unclosed
 from golc.syntax.recovery.draft import Draft
 from golc.syntax.recovery.omissions import omissions
 from golc.syntax.recovery.reading import Reading
+from golc.syntax.tree import STAND_IN
 
 PATIENCE = 600_000
 """Characters that are read of a part, mistake by mistake, before the rest of it is left alone."""
+
+_STAND_IN = re.compile(rf"\b{STAND_IN}_*\b")
 
 _OPENING_OF = dict(zip(CLOSING.values(), OPENING.values(), strict=True))
 
@@ -45,13 +49,14 @@ def mended(part: Span, start: str, end: str) -> Mended:
         following = _with_fix(failed)
         if following is None or finding.span.line == passed:
             finding = replace(finding, fix=None)
-        if not _follows(result, finding):
+        if not _follows(result, finding) and not _names_a_stand_in(finding):
             result.mistakes.append((finding, failed.error if isinstance(failed.error, Failure) else None))
         if following is None and (shorter := _without(failed)) is not None:
             following, omitted = shorter
             result.unread.append(omitted)
             passed = Span(part.source, omitted.end, omitted.end).line
         elif fix is not None and not any(edit.text for edit in fix.edits):
+            # What a fix removes may have been meant as something, such as a declaration that others then miss.
             result.unread.append(finding.span)
         if following is None:
             break
@@ -68,6 +73,14 @@ def _follows(before: Mended, finding: Diagnostic) -> bool:
     if finding.span.text in _OPENING_OF:
         return _OPENING_OF[finding.span.text] in unclosed(text[before.reading.draft.part.start : start])
     return last <= start and not text[last:start].strip(" ")
+
+
+def _names_a_stand_in(finding: Diagnostic) -> bool:
+    """Whether a mistake is said of what was passed over: it speaks of a name that is nowhere in the file."""
+    edits = finding.fix.edits if finding.fix else ()
+    said = (finding.message, finding.help or "", *[label.text for label in finding.labels], *[e.text for e in edits])
+    found = [name for text in said for name in _STAND_IN.findall(text)]
+    return any(name not in finding.span.source.text for name in found)
 
 
 def _with_fix(failed: Reading) -> Reading | None:

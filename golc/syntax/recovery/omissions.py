@@ -12,16 +12,15 @@ from dataclasses import dataclass
 from golc.diagnostics import Edit, Span
 from golc.syntax.failure import LAYOUT, Failure, wants
 from golc.syntax.layout import CLOSING, INDENT, OPENING, LayoutError
+from golc.syntax.recovery.draft import Draft
 from golc.syntax.recovery.reading import Reading
-from golc.syntax.spelling import closest
+from golc.syntax.spelling import meant_declaration
+from golc.syntax.terminals import BRANCHING
 from golc.syntax.tree import STAND_IN
-from golc.syntax.words import BRANCHES, DECLARATIONS, OTHER_NAMES
+from golc.syntax.words import BRANCHES, DECLARATIONS
 
 HEADS = ("if {}", "on {}", "elif {}", "else", "or", "and", "over")
 """What a line with a block below it may be instead of what it is."""
-
-BRANCHED = (("OR", "or"), ("AND", "and"), ("_OVER", "over"))
-"""The words that begin a further branch, with their terminals."""
 
 _WORD = re.compile("[a-z]+")
 _HEAD = re.compile(r":\s*(#.*)?$")
@@ -39,7 +38,7 @@ class Omission:
 
 def omissions(reading: Reading) -> Iterator[Omission]:
     """What could be passed over so that a reading comes further, the smallest first."""
-    failed, text = reading.error, _Text(reading.draft.whole)
+    failed, text = reading.error, _Text(reading.draft)
     if isinstance(failed, LayoutError):
         yield from _other_indentation(text, failed)
     elif failed is not None:
@@ -54,16 +53,16 @@ def omissions(reading: Reading) -> Iterator[Omission]:
 class _Text:
     """The text of a draft by its offsets."""
 
-    def __init__(self, whole: Span) -> None:
-        self.whole = whole
-        self.text = whole.text
+    def __init__(self, draft: Draft) -> None:
+        self.whole = draft.whole
+        self.text = draft.whole.text
         self.name = STAND_IN
-        while self.name in self.text:
+        while self.name in self.text or self.name in draft.part.source.text:
             self.name += "_"
 
     def omission(self, start: int, end: int, text: str) -> Omission:
-        """Something else is written for what stands between two offsets."""
-        span = self.span(start, end)
+        """Something else is written for what stands between two offsets, but for a carriage return at its end."""
+        span = self.span(start, end - self.text[start:end].endswith("\r"))
         return Omission(span, (Edit(span, text),))
 
     def span(self, start: int, end: int) -> Span:
@@ -130,8 +129,9 @@ def _needless_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
     """Lines that are indented below one that begins no block."""
     if failed.kind == "_INDENT" and failed.previous is not None:
         start = text.line_start(failed.place)
-        first, end = text.line_end(start), text.block_end(text.line_start(failed.previous.start_pos or 0), start)
-        width = failed.place - start - len(text.indentation(text.line_start(failed.previous.start_pos or 0)))
+        above = text.line_start(failed.previous.start_pos or 0)
+        first, end = text.line_end(start), text.block_end(above, start)
+        width = failed.place - start - len(text.indentation(above))
         lines = [place for place in text.lines(start, end) if text.text[place:].startswith(" " * width)]
         yield Omission(text.span(start, first), tuple([Edit(text.span(at, at + width), "") for at in lines]))
 
@@ -143,7 +143,9 @@ def _missing_indentation(text: _Text, failed: Failure) -> Iterator[Omission]:
     block = failed.accepts == {"_INDENT"} and ("interrupts" in failed.line_before) is (failed.bad == "on")
     lost = failed.begins_line() and (block or str(failed.bad) in BRANCHES)
     lost = lost or [str(token) for token in failed.line] == ["on"]
-    lost = lost or any(failed.accepts == {terminal} and text.goes_on(start, word) for terminal, word in BRANCHED)
+    lost = lost or any(
+        failed.accepts == {terminal} and text.goes_on(start, word) for terminal, word in BRANCHING.items()
+    )
     if lost:
         end = text.line_end(start)
         width = len(text.indentation(start)) + INDENT
@@ -164,7 +166,7 @@ def _missing_blocks(text: _Text, failed: Failure) -> Iterator[Omission]:
 
 def _missing_branches(text: _Text, failed: Failure) -> Iterator[Omission]:
     """``choose`` with one branch: another one in one of the columns that lines above have."""
-    for terminal, word in BRANCHED:
+    for terminal, word in BRANCHING.items():
         if failed.accepts == {terminal} and failed.previous is not None:
             end = text.line_end(failed.previous.end_pos or 0)
             columns = {len(text.indentation(line)) for line in text.lines(0, end)}
@@ -183,9 +185,11 @@ def _expressions(text: _Text, failed: Failure) -> Iterator[Omission]:
 
 
 def _beginnings(failed: Failure) -> Iterator[int]:
-    words = failed.line if failed.bad is None or failed.kind in LAYOUT else [*failed.line, failed.bad]
+    read = list(zip(failed.line, failed.stacks, strict=False))
+    if failed.bad is not None and failed.kind not in LAYOUT and len(read) == len(failed.line):
+        read.append((failed.bad, failed.stack))
     depth = 0
-    for word, stack in zip(words, failed.stacks, strict=False):
+    for word, stack in read:
         depth -= word.type in CLOSING
         if depth == 0 and wants(failed.start, stack, "TRUE"):
             yield word.start_pos or 0
@@ -232,7 +236,7 @@ def _kind(text: str) -> str | None:
     """The word that begins a declaration, or the one that it probably means."""
     found = _WORD.match(text)
     word = "" if found is None else found[0]
-    return word if word in DECLARATIONS else OTHER_NAMES.get(word) or closest(word, DECLARATIONS)
+    return word if word in DECLARATIONS else meant_declaration(word)
 
 
 def _heads(line: str, name: str) -> Iterator[str]:

@@ -1,4 +1,4 @@
-"""What can be said of devices although there are errors elsewhere in the theory."""
+"""What can be said of an outline, which is what errors have left of a theory: of its devices."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from golc.theory.fitting import BROKEN
 from golc.theory.theory import BasicActionTheory, Binding, Parameter
 
 
-def check_devices_anyway(outline: BasicActionTheory, findings: Findings) -> None:
-    """The errors in the settings of devices and in the numbers of their actions; ``outline`` is what errors have left
-    of a theory. Who does an action, and who reports one, only a whole theory says."""
+def check_outline(outline: BasicActionTheory, findings: Findings) -> None:
+    """The errors in the settings of devices and in the numbers of their actions. Who does an action, and who reports
+    one, only a whole theory says."""
     found, wrong = Findings(), {(finding.span.source, finding.span.line) for finding in findings.diagnostics}
     for device in outline.devices:
         check_settings(device, found)
