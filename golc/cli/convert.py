@@ -76,6 +76,8 @@ def _as_golc(file: str, folder: Path, findings: Findings) -> tuple[Source, str]:
     read = read_theory(file)
     findings.diagnostics += read.findings.diagnostics
     _refuse_nested_messages(read.file)
+    if findings.has_errors:
+        return read.sources[0], ""
     text = formatted(Source(f"<{file} as a domain>", unparse(moved(read.file, folder))), findings)
     return read.sources[0], text or ""
 

@@ -176,3 +176,56 @@ def test_mistakes_in_one_function_do_not_hide_each_other(
         (35, 5, "GL143", "a procedure has no value, and no way out but its end"),
         (36, 5, "GL015", "`off` takes 1 argument, not 2"),
     ]
+
+
+MISTAKEN = """\
+from golc.embed import Theory, branch, causes, choose, expect, interval, run
+
+theory = Theory("lift")
+floor = theory.type("floor", interval(1, 6))
+at = theory.fluent("at", floor, 1)
+
+
+@theory.action
+def up():
+    causes(at, at + 1)
+
+
+@theory.proc
+def climb():
+    with choose():
+        with branch():
+            up()
+        up()
+
+
+@theory.scenario
+def climbing():
+    run(3)
+    expect(at == 2)
+
+
+@theory.scenario
+def climbing_on():
+    try:
+        run(climb())
+    finally:
+        expect(at == 2)
+"""
+
+
+@pytest.mark.parametrize("arguments", [["check"], ["plan"], ["run"], ["test"], ["convert"]])
+def test_what_was_passed_over_is_not_missed(
+    arguments: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("lift.py").write_text(MISTAKEN)
+
+    assert invoke([*arguments, "lift.py"]) == 1
+
+    out, err = capsys.readouterr()
+    assert [line for line in (out + err).splitlines() if line.startswith("error")] == [
+        "error[GL143]: only branches stand in `choose`",
+        "error[GL143]: this is no action, procedure or fluent",
+        "error[GL143]: this line has no meaning here",
+    ]

@@ -66,9 +66,12 @@ class Actions(Lines):
                 yield from self.unrolled(node, self._clause)
                 return
         with self.loop(node, word) as (binders, condition):
-            for part in node.body:
+
+            def effect(part: ast.stmt) -> Iterator[tree.Effect]:
                 call, _ = self.call(part, "causes", IN_ACTIONS)
                 yield self._effect(call, binders, condition, self.span(node))
+
+            yield from self.each(node.body, effect)
 
     def _effect(
         self, call: ast.Call, binders: tuple[tree.Binder, ...], where: tree.Expr | None, span: Span

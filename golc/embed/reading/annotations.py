@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 from golc.diagnostics import Span
-from golc.embed.errors import meaningless
+from golc.embed.errors import Refused, meaningless
 from golc.embed.names import new_name
 from golc.embed.reading.arguments import Arguments
 from golc.embed.reading.evaluate import NOT_PYTHON
@@ -96,9 +96,7 @@ class Annotations(Arguments):
         for arg in self.function.parameters():
             span = self.span(arg)
             name = new_name(golc_name(arg.arg), Span(span.source, span.start, span.start + len(arg.arg)))
-            if arg.annotation is None:
-                raise meaningless(f"the parameter `{arg.arg}` has no type", span, f"write `{arg.arg}: station`")
-            found.append(tree.Parameter(name, self.annotation(arg.annotation), span=span))
+            found.append(tree.Parameter(name, self.annotation(arg.annotation or arg), span=span))
         return tuple(found)
 
     def result(self) -> tree.Type | None:
@@ -106,11 +104,20 @@ class Annotations(Arguments):
         returns = self.function.node.returns
         return None if returns is None else self.annotation(returns)
 
-    def annotation(self, node: ast.expr) -> tree.Type:
-        """The type in an annotation, in which parameters are not known."""
+    def annotation(self, node: ast.expr | ast.arg) -> tree.Type:
+        """The type in an annotation, in which parameters are not known; a name stands for one that is passed over.
+
+        ``node`` is the parameter if it has none.
+        """
         bound = set(self.bound)
         self.bound.clear()
         try:
+            if isinstance(node, ast.arg):
+                help_ = f"write `{node.arg}: station`"
+                raise meaningless(f"the parameter `{node.arg}` has no type", self.span(node), help_)
             return self.type(node)
+        except Refused as error:
+            span = self.pass_over(error, node)
+            return tree.TypeName(tree.Ident(tree.STAND_IN, span=span), span=span)
         finally:
             self.bound.update(bound)

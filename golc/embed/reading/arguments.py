@@ -19,13 +19,15 @@ from golc.syntax import tree
 class Arguments(ABC):
     """Looks at one function. ``bound`` are the variables of the language at the place, by their Python names.
 
-    ``unread`` are the parts that have been passed over so far, and ``found`` is what is said of them, each once.
+    ``unread`` are the parts that have been passed over so far, and ``found`` is what is said of them, each once;
+    ``rounds`` is how often bodies of loops of Python have been written out.
     """
 
     def __init__(self, function: Function) -> None:
         self.function = function
         self.found: dict[Diagnostic, None] = {}
         self.unread: list[Span] = []
+        self.rounds = 0
         self.bound: set[str] = {arg.arg for arg in function.parameters()}
         self.python = Evaluator(function, self.bound.__contains__)
 

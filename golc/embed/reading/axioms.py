@@ -24,7 +24,8 @@ class Axioms(Lines):
         for arg in self.function.parameters():
             if arg.annotation is not None:
                 message = f"`{arg.arg}` has the type that the fluent gives it"
-                raise meaningless(message, self.span(arg.annotation), "leave the annotation out")
+                error = meaningless(message, self.span(arg.annotation), "leave the annotation out")
+                self.pass_over(error, arg.annotation)
         return tuple(new_name(golc_name(arg.arg), self.span(arg)) for arg in self.function.parameters())
 
     def cases(self) -> tuple[tree.After, ...]:

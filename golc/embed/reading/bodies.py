@@ -15,7 +15,7 @@ from golc.embed.reading.evaluate import NOT_PYTHON
 from golc.embed.reading.expressions import Expressions
 from golc.embed.reading.refusals import STATEMENTS
 from golc.embed.terms import PROGRAMS, Named, Term
-from golc.embed.values import elements
+from golc.embed.values import MOST_ELEMENTS, elements
 from golc.syntax import tree
 
 T = TypeVar("T")
@@ -68,6 +68,11 @@ class Bodies(Expressions):
         for value in elements(ordered, self.span(node.iter)):
             if len(self.found) > before:
                 return  # what is wrong in one round is wrong in most
+            self.rounds += 1
+            if self.rounds > MOST_ELEMENTS:
+                message = f"with this loop more than {MOST_ELEMENTS} rounds of one function would be written out"
+                help_ = "write `for n in interval(1, 6):` for integers in a row"
+                raise refused(Code.PYTHON_VALUE, message, self.span(node.iter), help_)
             with self._round(node.target, value):
                 yield from self.each(node.body, translate)
 

@@ -60,16 +60,23 @@ class Calls(Binders):
             return self._apply(node, called, span)
         if (empty := _meant(_EMPTY, called)) and not node.args and not node.keywords:
             return empty((), span=span)  # type: ignore[no-any-return]
+        if (quantified := self.quantifier(node)) is not None:
+            return quantified
         kind = _meant(_QUANTIFIERS, called)
-        if kind is not None and len(node.args) == 1 and isinstance(node.args[0], ast.GeneratorExp):
-            self.arguments(node, 1)
-            generator = node.args[0]
-            with self.generators(generator.generators) as (binders, where):
-                return tree.Quantifier(kind, binders, where, self.expr(generator.elt), span=span)
         if kind in ("min", "max") and len(node.args) > 1:
             args = tuple(self.expr(arg) for arg in self.every_argument(node))
             return tree.Extremum(kind, args, span=span)
         return self._word_call(node, called, span)
+
+    def quantifier(self, node: ast.Call) -> tree.Quantifier | None:
+        """A call that binds variables, as in ``any(free(n) for n in station)``, if it is one."""
+        kind = _meant(_QUANTIFIERS, self.python(node.func))
+        if kind is None or len(node.args) != 1 or not isinstance(node.args[0], ast.GeneratorExp):
+            return None
+        self.arguments(node, 1)
+        generator = node.args[0]
+        with self.generators(generator.generators) as (binders, where):
+            return tree.Quantifier(kind, binders, where, self.expr(generator.elt), span=self.span(node))
 
     def _word_call(self, node: ast.Call, called: object, span: Span) -> tree.Expr:
         if function := _meant(_FUNCTIONS, called):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import contextlib
 from collections.abc import Mapping, Sequence
 from decimal import Decimal
 from typing import Any, Literal
@@ -50,23 +51,33 @@ class Expressions(Calls):
         try:
             return self._expr(node)
         except Refused as error:
-            span = self.pass_over(error, node)
-            return tree.Apply(tree.Ident(tree.STAND_IN, span=span), (), span=span)
+            return self.stand_in(error, node)
+
+    def stand_in(self, error: Refused, node: ast.AST) -> tree.Apply:
+        """A name that stands for what is passed over."""
+        span = self.pass_over(error, node)
+        return tree.Apply(tree.Ident(tree.STAND_IN, span=span), (), span=span)
 
     def _expr(self, node: ast.expr) -> tree.Expr:
-        value = self.python(node)
+        known = len(self.found)
+        try:
+            value = self.python(node)
+        except Refused:
+            # The first name that means nothing has ended this; the parts tell of every one.
+            made = None
+            with contextlib.suppress(Refused):
+                made = self._by_parts(node)
+            if made is None or len(self.found) == known:
+                raise
+            return made
         if value is not NOT_PYTHON:
             return self._of_value(node, value)
+        if (made := self._by_parts(node)) is not None:
+            return made
         span = self.span(node)
         match node:
             case ast.Constant(value=constant):
                 return self._literal(constant, span)
-            case ast.JoinedStr():
-                return self.message(node)
-            case ast.BoolOp() | ast.UnaryOp() | ast.BinOp() | ast.Compare() | ast.IfExp():
-                return self._operation(node, span)
-            case ast.Set() | ast.List() | ast.Tuple() | ast.SetComp() | ast.ListComp():
-                return self._collection(node, span)
             case ast.Subscript(value=base, slice=index) if not isinstance(index, ast.Slice):
                 return tree.Index(self.expr(base), self.expr(index), span=span)
             case ast.Call():
@@ -76,6 +87,19 @@ class Expressions(Calls):
         part = node.slice if isinstance(node, ast.Subscript) else node
         wrong, instead = EXPRESSIONS.get(type(part), ("this has no meaning in a theory", None))
         raise meaningless(wrong, self.span(part), instead)
+
+    def _by_parts(self, node: ast.expr) -> tree.Expr | None:
+        """What an operation becomes, a message or a collection; none for any other expression."""
+        match node:
+            case ast.JoinedStr():
+                return self.message(node)
+            case ast.BoolOp() | ast.UnaryOp() | ast.BinOp() | ast.Compare() | ast.IfExp():
+                return self._operation(node, self.span(node))
+            case ast.Set() | ast.List() | ast.Tuple() | ast.SetComp() | ast.ListComp():
+                return self._collection(node, self.span(node))
+            case ast.Call(args=[ast.GeneratorExp()]):
+                return self.quantifier(node)
+        return None
 
     def _operation(self, node: ast.BoolOp | ast.UnaryOp | ast.BinOp | ast.Compare | ast.IfExp, span: Span) -> tree.Expr:
         match node:
@@ -107,7 +131,13 @@ class Expressions(Calls):
                     return tree.Comprehension(kind, self.expr(part), binders, where, span=span)
 
     def value(self, node: ast.expr) -> tree.ValueExpr:
-        """What a fluent can get: a term, ``unknown`` or ``one_of(…)``."""
+        """What a fluent can get: a term, ``unknown`` or ``one_of(…)``; as for ``expr`` whatever is wrong is kept."""
+        try:
+            return self._value(node)
+        except Refused as error:
+            return self.stand_in(error, node)
+
+    def _value(self, node: ast.expr) -> tree.ValueExpr:
         if isinstance(node, ast.Call) and self.python(node.func) is words.one_of:
             (choices,) = self.arguments(node, 1)
             return tree.OneOf(self.expr(choices), span=self.span(node))
@@ -120,7 +150,8 @@ class Expressions(Calls):
         found = self.expr(node)
         if not isinstance(found, tree.Apply):
             help_ = "write the name of an action or a fluent, with its arguments"
-            raise meaningless("this is no action, procedure or fluent", self.span(node), help_)
+            error = meaningless("this is no action, procedure or fluent", self.span(node), help_)
+            return self.stand_in(error, node)
         return found
 
     def message(self, node: ast.expr) -> tree.Message:

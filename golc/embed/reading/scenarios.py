@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from typing import Any
 
@@ -17,8 +18,12 @@ class Scenarios(Lines):
     """Translates the body of a scenario."""
 
     def items(self) -> tuple[tree.ScenarioItem, ...]:
-        """The lines of a scenario."""
-        return self.lines(self._item)
+        """The lines of a scenario; one that was passed over may have said what it runs."""
+        items = self.lines(self._item)
+        span = next((span for span in self.unread if re.search(r"\brun\b", span.text)), None)
+        if span is None:
+            return items
+        return *items, tree.Run(tree.Apply(tree.Ident(tree.STAND_IN, span=span), (), span=span), span=span)
 
     def _item(self, node: ast.stmt) -> Iterator[tree.ScenarioItem]:
         if isinstance(node, ast.For):
