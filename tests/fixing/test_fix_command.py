@@ -192,3 +192,11 @@ def test_a_pipe_is_left_alone(folder: Path, capsys: Captured) -> None:
     os.close(writer)
     assert invoke(["check", "--fix", "-q", f"/dev/fd/{reader}"]) == 1
     assert capsys.readouterr().err == f"error: `/dev/fd/{reader}` cannot be written: it is no file\n"
+
+
+def test_what_may_have_been_meant_otherwise_is_not_fixed(folder: Path) -> None:
+    text = "domain d\nfluent f = true\naction rest\nproc control:\n    rest rest\n"
+    text += "    search at most 2  f steps:\n        rest\n"
+    (folder / "a.gl").write_text(text)
+    assert invoke(["check", "--fix", "-q", "a.gl"]) == 1
+    assert (folder / "a.gl").read_text() == text

@@ -74,7 +74,8 @@ def missing_unit(failure: Failure) -> Diagnostic | None:
         return failure.finding(Code.MISSING, "the number of steps is missing", span, help)
     if "STEPS" in failure.accepts:
         message, gap, help = "the word `steps` is missing", failure.gap(), "write `at most … steps`"
-        return failure.finding(Code.MISSING, message, gap, help, fix=insertion(gap, " steps"))
+        fix = insertion(gap, " steps") if failure.kind == "COLON" else None
+        return failure.finding(Code.MISSING, message, gap, help, fix=fix)
     return None
 
 

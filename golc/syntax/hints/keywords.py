@@ -99,8 +99,9 @@ def _misspelt(failure: Failure, token: Token | None, accepts: frozenset[str]) ->
 
 
 def _spelt(span: Span, ours: str, words: Iterable[str]) -> Fix | None:
-    """Our spelling, if no other word is close."""
-    return instead(span, ours) if close(span.text, words) == [ours] else None
+    """Our spelling, if no other word is close and no declaration has this name."""
+    declared = re.search(rf"^[a-z]+[ \t]+{re.escape(span.text)}\b", span.source.text, re.MULTILINE)
+    return instead(span, ours) if close(span.text, words) == [ours] and declared is None else None
 
 
 def reserved(failure: Failure) -> Diagnostic | None:
