@@ -185,5 +185,6 @@ def test_the_solver_takes_a_function_of_integers_for_any(examined: Check, trust:
     python = "def next(n):\n    return n + 1\n"
 
     assert examined(UNBOUNDED.format(what="other + total - total"), python, trust).findings == ()
-    unknown = examined(UNBOUNDED.format(what="other + total"), python, trust).findings
-    assert [finding.code for finding in unknown] == [Code.NOT_DECIDED]
+    (found,) = examined(UNBOUNDED.format(what="other + total"), python, trust).findings
+    # With the function at hand a situation may be found in which the invariant breaks, as it does where other is 1.
+    assert found.code in ({Code.NOT_DECIDED, Code.INVARIANT_NOT_KEPT} if trust else {Code.NOT_DECIDED})
