@@ -7,6 +7,9 @@ import pytest
 from golc.diagnostics import Code, Findings, Source, Span
 from golc.syntax.failure import MOST_KEPT, Failure, read
 from golc.syntax.parse import parse_expression, parse_file
+from golc.syntax.recovery import mending
+from golc.syntax.recovery.draft import Draft
+from golc.syntax.recovery.reading import Reading
 
 DEEP = {
     "parentheses": ("(" * 501 + "1" + ")" * 501, "(" * 500 + "1" + ")" * 500),
@@ -94,3 +97,22 @@ def test_a_number_that_is_too_long() -> None:
         (Code.SYNTAX, "a number of 1000000 digits is too long: the limit is 4000"),
         (Code.SYNTAX, "a number of 5000 digits is too long: the limit is 4000"),
     ]
+
+
+def test_what_a_deep_mistake_is_passed_over_with_is_not_sought_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    depth, read_to = 400, list[int]()
+
+    class Counted(Reading):
+        def __init__(self, draft: Draft, start: str) -> None:
+            super().__init__(draft, start)
+            read_to.append(self.place)
+
+    monkeypatch.setattr(mending, "Reading", Counted)
+    heads = "".join(f"{' ' * (level + 1)}if true:\n" for level in range(depth))
+    block = " " * (depth + 1)
+    text = f"domain d\nproc p:\n{heads}{block}choose:\n{block} skip\n{block}skip\n"
+    findings = Findings()
+    parse_file(Source("t", text), findings)
+
+    assert [finding.message for finding in findings.diagnostics] == ["this `choose` has one branch only"]
+    assert sum(read_to) <= mending.TRIALS + 4 * len(text)

@@ -17,6 +17,9 @@ from golc.syntax.tree import STAND_IN
 PATIENCE = 600_000
 """Characters that are read of a part, mistake by mistake, before the rest of it is left alone."""
 
+TRIALS = 2_000_000
+"""Characters that are read to find what one mistake can be passed over with."""
+
 VAGUE = frozenset({Code.SYNTAX, Code.MISSING})
 """What is said where something does not fit: after it has been put right in one way, more may not fit in the line."""
 
@@ -120,9 +123,13 @@ def _with_fix(failed: Reading) -> Reading | None:
 
 def _without(failed: Reading) -> tuple[Reading, Span] | None:
     """The reading of a text of which as little as possible is passed over, if that leads on, and what that is."""
+    patience = TRIALS
     for omission in omissions(failed):
+        if patience <= 0:
+            break
         tried = Reading(failed.draft.edited(omission.edits), failed.start)
         behind = moved(omission.span.end, omission.edits) - failed.draft.whole.start
         if tried.error is None or (tried.place > behind and tried.found.start > failed.found.start):
             return tried, failed.draft.back(omission.span)
+        patience -= tried.place
     return None
